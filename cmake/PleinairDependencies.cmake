@@ -8,6 +8,8 @@ find_package(glm REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 pkg_check_modules(LIBAV REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil libswscale)
+# Colours of HDR and wide-gamut films (docs/decisions/0040-film-colours.md).
+pkg_check_modules(ZIMG REQUIRED IMPORTED_TARGET zimg)
 pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
 pkg_check_modules(LIBDRM REQUIRED IMPORTED_TARGET libdrm)
 pkg_check_modules(GBM REQUIRED IMPORTED_TARGET gbm)
@@ -66,6 +68,14 @@ if(LIBEVDEV_FOUND)
   pleinair_optional("keys without a desktop" "in (libevdev ${LIBEVDEV_VERSION})")
 else()
   pleinair_optional("keys without a desktop" "not in: libevdev-dev is not installed")
+endif()
+
+# HEIC and AVIF pictures.
+pkg_check_modules(LIBHEIF QUIET IMPORTED_TARGET libheif)
+if(LIBHEIF_FOUND)
+  pleinair_optional("HEIC and AVIF pictures" "in (libheif ${LIBHEIF_VERSION})")
+else()
+  pleinair_optional("HEIC and AVIF pictures" "not in: libheif-dev is not installed")
 endif()
 
 # The status server.

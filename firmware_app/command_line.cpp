@@ -18,9 +18,11 @@
 
 #include "config/suggestion.h"
 #include "firmware_app/cli/exit_status.h"
+#include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/config/renamed.h"
 #include "firmware_app/subcommand_options.h"
 #include "firmware_app/version.h"
+#include "pipeline/gpu/shared_displays.h"
 
 namespace pleinair::app {
 
@@ -80,6 +82,7 @@ int withOutputFlushed(int status) {
     std::fputc('\n', stdout);
     std::fflush(stdout);
   }
+  if (errno == EPIPE) return status;  // the reader, such as `head`, has had enough
   const std::string cause = errno == 0 ? "" : ": " + std::generic_category().message(errno);
   printError("standard output: cannot write" + cause);
   return static_cast<int>(ExitStatus::kUsage);
@@ -114,8 +117,8 @@ int parseAndRun(int argc, const char* const* argv) {
     app.parse(argumentsReversed(argc, argv));
     if (!chosen)
       throw CLI::RequiredError(
-          "one of run, render, record, calibrate, measure, config, devices, doctor, thesis and "
-          "styles");
+          "one of run, render, record, looks, scene, calibrate, measure, config, devices, doctor, "
+          "warm-up, thesis and styles");
     return chosen();
   } catch (const CLI::ParseError& error) {
     return reportParseError(app, error);
@@ -127,8 +130,11 @@ int parseAndRun(int argc, const char* const* argv) {
 }  // namespace
 
 int runCommandLine(int argc, const char* const* argv) {
+  prepareStandardStreams();
   logToStandardError();
-  return withOutputFlushed(parseAndRun(argc, argv));
+  const int status = withOutputFlushed(parseAndRun(argc, argv));
+  gpu::terminateDisplays();
+  return status;
 }
 
 }  // namespace pleinair::app

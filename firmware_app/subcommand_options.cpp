@@ -77,18 +77,43 @@ CLI::Option* addFrames(CLI::App& command, std::function<void(std::uint64_t)> ass
       ->type_name("N");
 }
 
+/// The part of a recording, or one moment.
+void addPart(CLI::App& command, RenderOptions& options) {
+  const auto add = [&command](const std::string& name, const std::string& help, auto assign) {
+    return command
+        .add_option_function<std::string>(
+            name, [name, assign](const std::string& text) { assign(timeOf(name, text)); }, help)
+        ->type_name("TIME");
+  };
+  CLI::Option* from = add("--from", "begin here, such as 12.5 or 1:02.5, in the recording's time",
+                          [&options](hal::Duration time) { options.from = time; });
+  CLI::Option* to =
+      add("--to", "end before this time", [&options](hal::Duration time) { options.to = time; });
+  add("--at", "paint one frame only: the first at or after this time",
+      [&options](hal::Duration time) {
+        options.from = time;
+        options.painting.frames = 1;
+      })
+      ->excludes(from)
+      ->excludes(to)
+      ->excludes(command.get_option("--frames"));
+}
+
 void addRender(CLI::App& app, RenderOptions& options, std::function<int()>& chosen) {
   CLI::App& command = *app.add_subcommand("render", "paint a recording: every frame, none dropped");
   command
-      .add_option("--input", options.input,
-                  "movie, Y4M, folder, one picture, or a pattern such as in/%04d.png")
+      .add_option(
+          "--input", options.input,
+          "movie, Y4M, folder, one picture, a pattern such as in/%04d.png, or - for a movie "
+          "on standard input")
       ->required()
       ->type_name("PATH");
   command
-      .add_option("--output", options.painting.output,
-                  "movie (.mp4, .mkv), .y4m, one .png, a folder, or a pattern such as out/%04d.png")
+      .add_option(
+          "--output", options.painting.output,
+          "movie (.mp4, .mkv), .y4m, one .png, a folder, a pattern such as out/%04d.png, or "
+          "- for Y4M on standard output")
       ->required()
-      ->check(refuseStandardOutput)
       ->type_name("PATH");
   addPainting(command, options.configuration);
   addKey(command, options.configuration, "--size", "painting.size",
@@ -96,6 +121,18 @@ void addRender(CLI::App& app, RenderOptions& options, std::function<int()>& chos
   addFrames(
       command, [&options](std::uint64_t count) { options.painting.frames = count; },
       "paint the first N frames only");
+  addPart(command, options);
+  command.add_flag_callback(
+      "--no-sound", [&options] { options.keepsSound = false; },
+      "leave the sound of a movie out; it is kept as it is coded where the output can hold it");
+  command
+      .add_option_function<std::string>(
+          "--crf",
+          [&options](const std::string& text) {
+            options.painting.movie.crf = numberOf("--crf", text, "", 0, 51);
+          },
+          "quality of .mp4 and .mkv: 0 to 51, less is better and larger (default: 18)")
+      ->type_name("N");
   command
       .add_option("--poses", options.painting.poses,
                   "write the tracking results, one JSON object per frame")
@@ -380,13 +417,76 @@ void addThesis(CLI::App& app, ThesisOptions& options, std::function<int()>& chos
   command.callback([&] { chosen = [&options] { return makeThesisReport(options); }; });
 }
 
+void addStyles(CLI::App& command, std::vector<std::string>& styles) {
+  command
+      .add_option("--style", styles, "only these styles; may be given several times (default: all)")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+}
+
+void addLooks(CLI::App& app, LooksOptions& options, std::function<int()>& chosen) {
+  CLI::App& command = *app.add_subcommand(
+      "looks", "paint one picture in every look of every style, on one sheet with their names");
+  command.add_option("--input", options.input, "a picture, or a movie")
+      ->required()
+      ->type_name("PATH");
+  command
+      .add_option_function<std::string>(
+          "--at", [&options](const std::string& text) { options.at = timeOf("--at", text); },
+          "the moment of a movie, such as 12.5 or 1:02.5 (default: its beginning)")
+      ->type_name("TIME");
+  command.add_option("--output", options.output, "the sheet, a PNG")
+      ->required()
+      ->check(requirePngName)
+      ->type_name("FILE");
+  addStyles(command, options.styles);
+  refuseEmptyValues(command);
+  command.callback([&] { chosen = [&options] { return showLooks(options); }; });
+}
+
+void addScene(CLI::App& app, SceneCheckOptions& options, std::function<int()>& chosen) {
+  CLI::App& scene = *app.add_subcommand("scene", "check a scene file");
+  scene.require_subcommand(1);
+  CLI::App& command = *scene.add_subcommand(
+      "check", "print what a scene file places where, and its likely mistakes");
+  command.add_option("FILE", options.scene, "the scene (TOML)")->required()->type_name("");
+  CLI::Option* input =
+      command.add_option("--input", options.input, "a movie or picture in which its tags are seen")
+          ->type_name("PATH");
+  CLI::Option* output =
+      command
+          .add_option("--output", options.output,
+                      "a PNG of some frames, with tags, axes and models drawn over them")
+          ->check(requirePngName)
+          ->needs(input)
+          ->type_name("FILE");
+  input->needs(output);
+  refuseEmptyValues(command);
+  command.callback([&] { chosen = [&options] { return checkScene(options); }; });
+}
+
+void addWarmUp(CLI::App& app, WarmUpOptions& options, std::function<int()>& chosen) {
+  CLI::App& command = *app.add_subcommand(
+      "warm-up", "compile all shaders into the driver's cache, so that later starts are fast");
+  addStyles(command, options.styles);
+  addKey(command, options.configuration, "--scene", "painting.scene",
+         "a scene whose models are painted too", "FILE");
+  addKey(command, options.configuration, "--size", "painting.size",
+         "size of the painting (default: 640x480)", "WxH");
+  addConfiguration(command, options.configuration);
+  command.footer("Run it as the user who paints: the cache belongs to a user.");
+  refuseEmptyValues(command);
+  command.callback([&] { chosen = [&options] { return warmUpShaders(options); }; });
+}
+
 }  // namespace
 
 void addSubcommands(CLI::App& app, SubcommandOptions& options, std::function<int()>& chosen) {
   for (ConfigurationRequest* each :
        {&options.render.configuration, &options.record.configuration, &options.run.configuration,
         &options.calibrate.configuration, &options.measure.configuration,
-        &options.config.configuration, &options.doctor.configuration}) {
+        &options.config.configuration, &options.doctor.configuration,
+        &options.warmUp.configuration}) {
     each->environment = environmentOfProcess();
   }
   addRun(app, options.run, chosen);
@@ -398,6 +498,9 @@ void addSubcommands(CLI::App& app, SubcommandOptions& options, std::function<int
   addDevices(app, options.devices, chosen);
   addDoctor(app, options.doctor, chosen);
   addThesis(app, options.thesis, chosen);
+  addLooks(app, options.looks, chosen);
+  addScene(app, options.sceneCheck, chosen);
+  addWarmUp(app, options.warmUp, chosen);
   app.add_subcommand("styles", "list styles with their looks, parameters and debug views")
       ->callback([&] { chosen = listStyles; });
 }

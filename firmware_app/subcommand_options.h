@@ -19,6 +19,9 @@ struct SubcommandOptions {
   RunOptions run;
   DevicesOptions devices;
   DoctorOptions doctor;
+  LooksOptions looks;
+  SceneCheckOptions sceneCheck;
+  WarmUpOptions warmUp;
 };
 
 /// Adds all subcommands with their options. Parsing fills `options` and sets `chosen` to the

@@ -1,8 +1,10 @@
 #include "hal/pending_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -120,6 +122,37 @@ Result<std::filesystem::path> targetOf(const std::filesystem::path& path) {
 FileSystem& systemFiles() {
   static SystemFiles files;
   return files;
+}
+
+std::string finalNameOf(const std::filesystem::path& part) {
+  constexpr std::string_view kEnding = ".part";
+  std::string name = part.filename().string();
+  if (!name.starts_with('.') || !name.ends_with(kEnding)) return {};
+  name = name.substr(1, name.size() - 1 - std::min(name.size() - 1, kEnding.size()));
+  const std::size_t dot = name.rfind('.');
+  const std::string number = dot == std::string::npos ? "" : name.substr(dot + 1);
+  const bool isNumbered =
+      !number.empty() && std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
+  return isNumbered ? name.substr(0, dot) : name;
+}
+
+std::vector<std::filesystem::path> stalePartsIn(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> stale;
+  std::error_code status;
+  for (std::filesystem::directory_iterator entry(folder, status), end; !status && entry != end;
+       entry.increment(status)) {
+    if (finalNameOf(entry->path()).empty()) continue;
+    const FileDescriptor file(retried([&] {
+      return ::open(entry->path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    }));
+    struct stat opened = {};
+    if (!file || ::fstat(file.get(), &opened) != 0 || !S_ISREG(opened.st_mode)) continue;
+    if (retried([&] { return ::flock(file.get(), LOCK_SH | LOCK_NB); }) == 0) {
+      stale.push_back(entry->path());
+    }
+  }
+  std::ranges::sort(stale);
+  return stale;
 }
 
 PendingFile::PendingFile(std::filesystem::path path, std::filesystem::path target,

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 #include <sys/types.h>
 
@@ -30,6 +32,14 @@ class FileSystem : public DescriptorCloser {
 
 /// The kernel's file system; stateless, any thread.
 FileSystem& systemFiles();
+
+/// The partial files in a folder that no process writes any more: ".name.part", left by runs that
+/// were killed. Empty where the folder cannot be listed.
+std::vector<std::filesystem::path> stalePartsIn(const std::filesystem::path& folder);
+
+/// The name that a partial file would have taken: "out.mp4" of ".out.mp4.part" and of
+/// ".out.mp4.2.part"; empty for another name.
+std::string finalNameOf(const std::filesystem::path& part);
 
 /// Whether the data must be on the disk before the file takes its name. If so, a power loss never
 /// leaves an empty file, but publish() waits for the disk.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "config/config_error.h"
+#include "firmware_app/cli/standard_streams.h"
 #include "hal/error.h"
 
 namespace pleinair::app {
@@ -16,7 +17,7 @@ void printError(std::string_view message) {
   // Replaces control characters: file names and arguments may contain any.
   std::ranges::replace_if(
       line, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, '?');
-  fmt::print(stderr, "pleinair: {}\n", line);
+  writeText(stderr, fmt::format("pleinair: {}\n", line));
 }
 
 ExitStatus exitStatusOf(const hal::Error& error) {

@@ -62,6 +62,26 @@ double numberOf(const std::string& option, const std::string& text, std::string_
                                           unit.empty() ? "" : " ", unit)));
 }
 
+hal::Duration timeOf(const std::string& option, const std::string& text) {
+  constexpr double kMostSeconds = 1e6;
+  double seconds = 0;
+  std::string_view rest = text;
+  bool isTime = std::ranges::count(text, ':') <= 2;
+  for (bool isLast = false; isTime && !isLast;) {
+    const std::size_t colon = rest.find(':');
+    isLast = colon == std::string_view::npos;
+    const std::optional<double> part = signedNumber(rest.substr(0, colon));
+    const bool isFirst = rest.size() == text.size();
+    isTime =
+        part && *part >= 0 && (isFirst || *part < 60) && (isLast || *part == std::floor(*part));
+    if (isTime) seconds = 60 * seconds + *part;
+    if (!isLast) rest.remove_prefix(colon + 1);
+  }
+  if (isTime && seconds <= kMostSeconds) return hal::fromSeconds(seconds);
+  throw CLI::ValidationError(option,
+                             foundText(text, "seconds such as 12.5, or 1:02.5, or 1:00:02.5"));
+}
+
 std::pair<double, double> vectorOf(const std::string& option, const std::string& text,
                                    double most) {
   const std::string_view whole = text;

@@ -7,6 +7,8 @@
 
 #include <CLI/App.hpp>
 
+#include "hal/clock.h"
+
 namespace pleinair::app {
 
 /// Parses a whole number of at least `least`. Throws CLI::ValidationError for `option`, with the
@@ -18,6 +20,9 @@ std::uint64_t frameCountOf(const std::string& text, const std::string& option = 
 /// `option`, with the limits.
 double numberOf(const std::string& option, const std::string& text, std::string_view unit,
                 double least, double most);
+/// Parses a moment of a recording: seconds, such as "12.5", or with minutes and hours, "1:02:03.5".
+/// Throws CLI::ValidationError for `option`.
+hal::Duration timeOf(const std::string& option, const std::string& text);
 /// Parses "X,Y", both within ± `most`. Throws CLI::ValidationError for `option`, with the limits.
 std::pair<double, double> vectorOf(const std::string& option, const std::string& text, double most);
 

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "firmware_app/cli/standard_streams.h"
+
 namespace pleinair::app {
 namespace {
 
@@ -57,7 +59,7 @@ void Progress::advance() {
 
 void Progress::interrupt() {
   if (!isTerminal_) return;
-  fmt::print(stderr, "\r\x1b[K");
+  writeText(stderr, "\r\x1b[K");
   std::fflush(stderr);
   drawn_ = clock_.now() - kRedrawPeriod;
 }
@@ -72,7 +74,7 @@ hal::Duration Progress::elapsed() const {
 
 void Progress::draw() const {
   // Carriage return, text, then clear to the end of the line.
-  fmt::print(stderr, "\r{}\x1b[K", progressLine(subcommand_, done_, total_, elapsed()));
+  writeText(stderr, fmt::format("\r{}\x1b[K", progressLine(subcommand_, done_, total_, elapsed())));
   std::fflush(stderr);
 }
 

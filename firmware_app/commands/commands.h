@@ -9,6 +9,7 @@
 #include "firmware_app/cli/board_option.h"
 #include "firmware_app/config/configuration.h"
 #include "firmware_app/offline/painting.h"
+#include "hal/clock.h"
 #include "pipeline/measure/input/moved_photograph.h"
 
 namespace pleinair::app {
@@ -90,13 +91,15 @@ int record(const RecordOptions& options);
 struct RenderOptions {
   ConfigurationRequest configuration;
   std::filesystem::path input;
+  hal::Duration from{0};  ///< the part of the recording (hal::RecordingOptions)
+  std::optional<hal::Duration> to;
+  bool keepsSound = true;
   PaintingOptions painting;  ///< the options that are not configuration
 };
 
 /// Paints a recording, every frame: `pleinair render`. Throws hal::Failure and config::ConfigError.
-/// Returns the exit status: 0, or 128 + the signal that interrupted it. After a signal or a
-/// failure, no file has the output's name; a folder or a pattern keeps the complete frames written
-/// so far.
+/// Returns the exit status: 0, or 128 + the signal that interrupted it. What is kept then is said
+/// at runPainting().
 int render(const RenderOptions& options);
 
 struct RunOptions {
@@ -108,6 +111,41 @@ struct RunOptions {
 /// Paints a camera live: `pleinair run`. Throws hal::Failure and config::ConfigError. Returns the
 /// exit status: 0, also after a signal.
 int run(const RunOptions& options);
+
+struct LooksOptions {
+  std::filesystem::path input;      ///< a picture, or a movie
+  hal::Duration at{0};              ///< the moment of a movie
+  std::filesystem::path output;     ///< PNG
+  std::vector<std::string> styles;  ///< empty: all that have looks
+};
+
+/// Paints one picture in every look of every style, and writes them on one sheet with their names:
+/// `pleinair looks`. Throws hal::Failure. Returns the exit status: 0, or 128 + the signal that
+/// interrupted it, after which there is no sheet.
+int showLooks(const LooksOptions& options);
+
+struct SceneCheckOptions {
+  std::filesystem::path scene;
+  std::optional<std::filesystem::path> input;   ///< a recording in which its tags are
+  std::optional<std::filesystem::path> output;  ///< PNG; with an input
+};
+
+/// Prints what a scene file places where, and its likely mistakes, each with a remedy:
+/// `pleinair scene check`. With a recording, tracks it, and writes a sheet of frames with tag
+/// edges, axes and the models drawn over them. Throws hal::Failure and config::ConfigError. Returns
+/// the exit status: 0; 1 with mistakes; or 128 + the signal that interrupted it.
+int checkScene(const SceneCheckOptions& options);
+
+struct WarmUpOptions {
+  ConfigurationRequest configuration;  ///< its scene and size are painted too
+  std::vector<std::string> styles;     ///< empty: all
+};
+
+/// Has the driver compile the programs of the styles, in all looks, quality levels and debug views,
+/// into its shader cache, which later runs of the same user start from: `pleinair warm-up`. Throws
+/// hal::Failure and config::ConfigError. Returns the exit status: 0, or 128 + the signal that
+/// interrupted it; what was compiled until then is kept.
+int warmUpShaders(const WarmUpOptions& options);
 
 struct ThesisOptions {
   std::filesystem::path output;   ///< the report's folder

@@ -63,6 +63,7 @@ int record(const RecordOptions& options) {
     return runPainting(
         {.camera = camera.get(),
          .request = streamRequestOf(settings),
+         .clock = isDevice(settings) ? &steady : nullptr,
          .options = {.output = options.output, .style = "none", .frames = options.frames},
          .progressVerb = "recording",
          .summaryVerb = "recorded"});

@@ -72,7 +72,7 @@ ThesisEntry entryOf(const ThesisFigureKind& kind, ThesisBench& bench, const fs::
     orThrow(hal::writePng(folder / entry.files.back(), image.view()));
   }
   entry.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  fmt::print("{:.1f} s  {}\n", entry.seconds, kind.title);
+  std::fputs(fmt::format("{:.1f} s  {}\n", entry.seconds, kind.title).c_str(), stdout);
   std::fflush(stdout);  // the next figure takes a while
   return entry;
 }
@@ -105,7 +105,7 @@ int makeThesisReport(const ThesisOptions& options) {
   report.failedControls = bench.failedControls();
   writeText(options.output / kNumbers, thesisJson(report));
   writeText(options.output / kPage, thesisHtml(report));
-  fmt::print("wrote {}\n", (options.output / kPage).string());
+  std::fputs(fmt::format("wrote {}\n", (options.output / kPage).string()).c_str(), stdout);
   if (report.failedControls.empty()) return 0;
   printError("a negative control failed; see the report");
   return kControlsWrong;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -15,7 +16,11 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "firmware_app/cli/compile_notice.h"
+#include "firmware_app/cli/exit_status.h"
 #include "firmware_app/cli/interrupt.h"
+#include "firmware_app/cli/stale_parts.h"
+#include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/live/frame_log_file.h"
 #include "firmware_app/live/live_controls.h"
 #include "firmware_app/live/live_input.h"
@@ -61,6 +66,18 @@ class LivePainting {
   LivePainting& operator=(const LivePainting&) = delete;
 
   void run() {
+    try {
+      paintUntilEnd();
+    } catch (...) {
+      // Threads end here, where the error is known that decides the exit status should one hang.
+      stopThreads();
+      throw;
+    }
+    finish();
+  }
+
+ private:
+  void paintUntilEnd() {
     began_ = job_.clock->now();
     outputs_.startScreens();  // before the camera, which the camera thread opens
     threads_.emplace(pipeline_);
@@ -74,10 +91,8 @@ class LivePainting {
       startOutputs();
       if (awaitPainter()) paint();
     }
-    finish();
   }
 
- private:
   /// Any thread.
   void devicesChanged(const hal::DeviceEvent& event) {
     if (event.subsystem == "drm") {
@@ -156,6 +171,10 @@ class LivePainting {
       if (warning) spdlog::warn("{}", *warning);
     }
     outputs_.start(stream_);
+    for (const std::string& target : job_.outputs) {
+      if (!orThrow(hal::outputKindOf(target))->traits.writesFiles) continue;
+      for (const std::string& notice : stalePartNotices(target)) spdlog::warn("{}", notice);
+    }
     if (hal::Window* window = outputs_.window()) input_.openWindow(*window);
     pipeline_.makePaintStage([this](const auto& formats) { return makePainter(formats); },
                              paintRules(job_.runtime, stream_));
@@ -193,7 +212,7 @@ class LivePainting {
                                  .passTiming = gpu::PassTiming::kSampled,
                                  .expectedFormat = stream_.frame,
                                  .qualityLevels = job_.runtime.quality != qualityNames().front(),
-                                 .isCancelled = [] { return Interrupt::received() != 0; }};
+                                 .isCancelled = cancelledBySignal()};
     return std::make_unique<LivePainter>(options, formats, controls_);
   }
 
@@ -301,7 +320,7 @@ class LivePainting {
     writeFrameLog();
     reporter_.interrupt();
     const runtime::LedgerCounts ledger = pipeline_.ledger().counts();
-    fmt::print("{}: {}\n", ledger.summary(elapsed), fmt::join(job_.outputs, ", "));
+    printSummary(ledger.summary(elapsed));
     if (!failure_ && !failures_.empty()) failure_ = failures_.front();
     if (failure_) throw hal::Failure(*failure_);
   }
@@ -320,9 +339,14 @@ class LivePainting {
     threads_.reset();
   }
 
-  /// Exits the process without destroying the objects, which the stuck threads still use. A painter
-  /// that is still being created is no failure: a driver cannot be stopped while it compiles a
-  /// program, and nothing has been painted that could be lost.
+  void printSummary(const std::string& summary) const {
+    writeText(stdout, fmt::format("{}: {}\n", summary, fmt::join(job_.outputs, ", ")));
+  }
+
+  /// Exits the process without destroying the objects, which the stuck threads still use. An error
+  /// that is being handled is reported and decides the status. A painter that is still being
+  /// created is no failure: a driver cannot be stopped while it compiles a program, and nothing has
+  /// been painted that could be lost.
   [[noreturn]] void exitWithStuckThreads(const std::vector<std::string>& stuck) {
     reporter_.interrupt();
     input_.releaseConsole();
@@ -330,15 +354,20 @@ class LivePainting {
     if (!hasBegun_ && std::ranges::none_of(stuck, isOutput)) {
       for (std::size_t i = 0; i < pipeline_.outputCount(); ++i) pipeline_.output(i).discard();
     }
-    fmt::print("{}: {}\n", pipeline_.ledger().counts().summary(job_.clock->now() - began_),
-               fmt::join(job_.outputs, ", "));
+    auto status = ExitStatus::kSuccess;
+    if (std::current_exception()) {
+      status = reportCurrentException();
+    } else {
+      printSummary(pipeline_.ledger().counts().summary(job_.clock->now() - began_));
+    }
     const bool isOnlyStarting =
         !hasBegun_ && stuck.size() == 1 && stuck.front() == runtime::LiveThreads::kPainter;
     if (!isOnlyStarting) {
       spdlog::error("{} did not end in time and was left behind", fmt::join(stuck, ", "));
+      if (status == ExitStatus::kSuccess) status = ExitStatus::kInternal;
     }
     std::fflush(nullptr);
-    std::_Exit(isOnlyStarting ? EXIT_SUCCESS : EXIT_FAILURE);
+    std::_Exit(static_cast<int>(status));
   }
 
   const LiveJob& job_;

@@ -9,6 +9,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include "firmware_app/cli/standard_streams.h"
 #include "pipeline/runtime/status_text.h"
 
 namespace pleinair::app {
@@ -23,12 +24,12 @@ LiveReporter::LiveReporter(std::vector<std::string> qualityNames)
     : qualityNames_(std::move(qualityNames)), isTerminal_(isatty(STDERR_FILENO) == 1) {}
 
 LiveReporter::~LiveReporter() {
-  if (isDrawn_) fmt::print(stderr, "\n");
+  if (isDrawn_) writeText(stderr, "\n");
 }
 
 void LiveReporter::interrupt() {
   if (!std::exchange(isDrawn_, false)) return;
-  fmt::print(stderr, "{}", kClearLine);
+  writeText(stderr, kClearLine);
 }
 
 template <class... Arguments>
@@ -51,7 +52,7 @@ void LiveReporter::update(const runtime::RuntimeStatus& status, hal::TimePoint n
   if (!isTerminal_ || (drawn_ && now - *drawn_ < kLineInterval)) return;
   drawn_ = now;
   isDrawn_ = true;
-  fmt::print(stderr, "{}{}", kClearLine, runtime::statusLine(status, qualityNames_));
+  writeText(stderr, kClearLine + runtime::statusLine(status, qualityNames_));
   std::fflush(stderr);
 }
 

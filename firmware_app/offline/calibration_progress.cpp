@@ -8,6 +8,8 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include "firmware_app/cli/standard_streams.h"
+
 namespace pleinair::app {
 namespace {
 
@@ -105,7 +107,8 @@ void CalibrationProgress::advance(const ViewSelector& selector, ViewOutcome outc
 
 void CalibrationProgress::interrupt() {
   if (drawnLines_ == 0) return;
-  fmt::print(stderr, "\x1b[{}A\x1b[J", drawnLines_);  // cursor up, then clear from there on
+  writeText(stderr,
+            fmt::format("\x1b[{}A\x1b[J", drawnLines_));  // cursor up, then clear from there on
   std::fflush(stderr);
   drawnLines_ = 0;
 }
@@ -113,7 +116,7 @@ void CalibrationProgress::interrupt() {
 void CalibrationProgress::draw(const std::vector<std::string>& lines) {
   std::string text = drawnLines_ > 0 ? fmt::format("\x1b[{}A", drawnLines_) : std::string();
   for (const std::string& line : lines) text += line + "\x1b[K\n";
-  fmt::print(stderr, "{}", text);
+  writeText(stderr, text);
   std::fflush(stderr);
   drawnLines_ = lines.size();
 }

@@ -1,8 +1,8 @@
 #include "firmware_app/offline/painting.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
-#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -10,11 +10,15 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "firmware_app/cli/compile_notice.h"
 #include "firmware_app/cli/exit_status.h"
 #include "firmware_app/cli/interrupt.h"
 #include "firmware_app/cli/path_collisions.h"
 #include "firmware_app/cli/progress.h"
+#include "firmware_app/cli/stale_parts.h"
+#include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/offline/poses_file.h"
+#include "firmware_app/scene/scene_observer.h"
 #include "firmware_app/scene/scene_warnings.h"
 #include "hal/media/picture_file.h"
 #include "hal/outputs/registry.h"
@@ -40,10 +44,24 @@ void warn(const std::optional<std::string>& warning) {
   if (warning) spdlog::warn("{}", *warning);
 }
 
+/// How often a device that is silent is left, to look for a signal.
+constexpr hal::Duration kSignalInterval = std::chrono::milliseconds(100);
+
 template <class File>
 std::optional<File> created(const std::optional<std::filesystem::path>& path) {
   if (!path) return std::nullopt;
   return orThrow(File::create(*path));
+}
+
+bool isStandardOutput(const std::filesystem::path& output) {
+  return output == kStandardOutput;
+}
+
+std::unique_ptr<hal::MemoryOutput> openOutput(const PaintingOptions& options) {
+  if (isStandardOutput(options.output)) return hal::openMovieStream();
+  const bool isMovie = hal::isMovieName(options.output) && !isFrameSeries(options.output);
+  if (!isMovie) return orThrow(hal::openFileOutput(options.output));
+  return hal::openMovieOutput(options.output, options.movie);
 }
 
 /// One run of a job: the camera, the painter and all outputs.
@@ -53,59 +71,77 @@ class Painting {
   explicit Painting(const PaintingJob& job)
       : job_(job),
         stream_(orThrow(job.camera->start(job.request))),
-        output_(orThrow(hal::openFileOutput(job.options.output))),
+        output_(openOutput(job.options)),
         painter_({.pictureSize = pictureSize(),
                   .scene = job.scene,
                   .style = job.options.style,
                   .tracksTags = !job.scene.tags.empty() || job.options.poses,
                   .shaderDirectory = job.options.shaderDirectory,
                   .expectedFormat = stream_.frame,
-                  .isCancelled = [] { return Interrupt::received() != 0; }}),
+                  .isCancelled = cancelledBySignal()}),
         parameters_(startParameters(job.options)),
+        observer_(job.scene),
         poses_(created<PosesFile>(job.options.poses)),
         sheetFile_(created<hal::PendingFile>(job.options.contactSheet)),
         outputFormat_(
             orThrow(output_->start({.size = pictureSize(), .framePeriod = stream_.framePeriod}))),
         reader_(painter_.openReadback(outputFormat_.frame)) {
+    if (!isStandardOutput(job.options.output)) {
+      for (const std::string& notice : stalePartNotices(job.options.output)) {
+        spdlog::warn("{}", notice);
+      }
+    }
     for (const std::string& notice : job.scene.notices) spdlog::warn("{}", notice);
     warn(assumedCameraWarning(job.scene, stream_.frame.size));
     warn(blackViewWarning(job.scene, job.options.view));
   }
 
-  /// 0, or 128 + the signal that interrupted it.
+  /// Paints until the end, a signal, or the loss of the camera; then completes the outputs with the
+  /// frames so far. Gives the signal, or 0. Throws hal::Failure, that of the camera at the end.
   int run() {
     std::string summary;
+    int signal = 0;
     {
       Progress progress(job_.progressVerb, framesToPaint(stream_, job_), realTime_);
-      if (const int signal = paintAll(progress); signal != 0) return signal;
-      finish();
-      summary = fmt::format("{} {} {} in {:.1f} s ({:.1f} frames/s): {}\n", job_.summaryVerb,
-                            progress.frames(), progress.frames() == 1 ? "frame" : "frames",
-                            hal::toSeconds(progress.elapsed()), progress.framesPerSecond(),
-                            job_.options.output.string());
+      signal = paintAll(progress);
+      frames_ = progress.frames();
+      const bool isNothing = frames_ == 0 && (signal != 0 || lost_);
+      if (!isNothing) finish();
+      summary =
+          fmt::format("{} {} {} in {:.1f} s ({:.1f} frames/s): {}\n", job_.summaryVerb, frames_,
+                      frames_ == 1 ? "frame" : "frames", hal::toSeconds(progress.elapsed()),
+                      progress.framesPerSecond(), job_.options.output.string());
+      if (isNothing) summary.clear();
     }
-    warn(unseenTagsWarning(job_.scene, seenTags_));
-    // Write errors are checked once, at the end of the program.
-    std::fputs(summary.c_str(), stdout);
-    return 0;
+    if (signal == 0 && !lost_) {
+      for (const std::string& finding : observer_.findings()) spdlog::warn("{}", finding);
+    }
+    // Whether it arrived is checked at the end of the program.
+    writeText(isStandardOutput(job_.options.output) ? stderr : stdout, summary);
+    if (lost_) throw hal::Failure(*lost_);
+    return signal;
   }
+
+  /// The frames in the completed outputs.
+  std::uint64_t frames() const { return frames_; }
 
  private:
   hal::FrameSize pictureSize() const { return job_.options.size.value_or(stream_.frame.size); }
 
-  /// Returns like run().
+  /// Gives the signal that interrupted it, or 0.
   int paintAll(Progress& progress) {
     while (!job_.options.frames || progress.frames() < *job_.options.frames) {
       if (const int signal = Interrupt::received(); signal != 0) return signal;
       const std::optional<hal::CapturedFrame> frame = nextFrame(progress);
-      if (!frame) break;
+      if (!frame) return Interrupt::received();
       paint(*frame, progress.frames());
       progress.advance();
     }
     return 0;
   }
 
-  /// Nothing at the end. A truncated recording gives its frames, with a warning.
+  /// Nothing at the end, which may be the camera's loss. A truncated recording gives its frames,
+  /// with a warning.
   std::optional<hal::CapturedFrame> nextFrame(Progress& progress) {
     std::optional<hal::CapturedFrame> frame;
     constexpr bool kGoesOn = true;
@@ -115,23 +151,30 @@ class Painting {
           frame = std::move(next);
           return kDone;
         },
-        // cannot occur without a deadline
-        [](hal::CameraTimeout&) { return kGoesOn; },
+        [](hal::CameraTimeout&) { return Interrupt::received() == 0 ? kGoesOn : kDone; },
         // Each frame carries its format, and the painter fits it into the output frame, whose size
         // stays.
         [](hal::FormatChanged&) { return kGoesOn; },
         [&](hal::EndOfStream& end) {
-          if (end.truncated) {
+          // A signal ends the reading of a pipe, too.
+          if (end.truncated && Interrupt::received() == 0) {
             progress.interrupt();
             spdlog::warn("{}", end.truncated->message());
           }
           return kDone;
         },
-        [](hal::CameraLost& lost) -> bool { throw hal::Failure(std::move(lost.cause)); },
-        [](Error& error) -> bool { throw hal::Failure(std::move(error)); },
+        [&](hal::CameraLost& lost) {
+          lost_ = std::move(lost.cause);
+          return kDone;
+        },
+        [&](Error& error) {
+          lost_ = std::move(error);
+          return kDone;
+        },
     };
     for (bool goesOn = true; goesOn;) {
-      hal::NextFrame next = job_.camera->next(hal::kNoDeadline);
+      hal::NextFrame next = job_.camera->next(
+          job_.clock == nullptr ? hal::kNoDeadline : job_.clock->now() + kSignalInterval);
       goesOn = std::visit(receive, next);
     }
     return frame;
@@ -142,7 +185,7 @@ class Painting {
     const hal::Duration time = frame.captureTime - *firstTime_;
     while (!painter_.hasRoom(reader_)) write(true);
     const Picture picture = orThrow(painter_.paint(frame, parameters_));
-    for (const tracking::TrackedTag& tag : picture.tracking.tags) seenTags_.insert(tag.id);
+    observer_.take(frame.image, picture.tracking);
     if (poses_) orThrow(poses_->write(index, time, picture.tracking));
     if (sheetFile_ && sheet_.wants(index)) {
       const hal::Image camera = orThrow(painter_.cameraSnapshot());
@@ -178,20 +221,24 @@ class Painting {
   std::unique_ptr<hal::MemoryOutput> output_;
   Painter painter_;
   PaintParameters parameters_;
+  SceneObserver observer_;
   std::optional<PosesFile> poses_;
   std::optional<hal::PendingFile> sheetFile_;
   hal::OutputFormat outputFormat_;
   int reader_;
   OutputFrame read_;
   std::optional<hal::TimePoint> firstTime_;
-  std::set<int> seenTags_;
+  std::optional<Error> lost_;  ///< why the camera gives no further frame
+  std::uint64_t frames_ = 0;
   present::ContactSheet sheet_;
 };
 
-void reportInterruption(int signal, const PaintingJob& job) {
-  printError(fmt::format(
-      "interrupted by {}; {}", signalName(signal),
-      isFrameSeries(job.options.output) ? "complete frames are kept" : "nothing was written"));
+void reportInterruption(int signal, std::uint64_t frames, const PaintingJob& job) {
+  const std::string output = job.options.output.string();
+  std::string kept = "nothing was written";
+  if (frames == 1) kept = fmt::format("the frame so far is kept in {}", output);
+  if (frames > 1) kept = fmt::format("the {} frames so far are kept in {}", frames, output);
+  printError(fmt::format("interrupted by {}; {}", signalName(signal), kept));
 }
 
 }  // namespace
@@ -205,14 +252,17 @@ PaintParameters startParameters(const PaintingOptions& options) {
 int runPainting(const PaintingJob& job) {
   const Interrupt interrupt;
   int signal = 0;
+  std::uint64_t frames = 0;
   try {
-    signal = Painting(job).run();
+    Painting painting(job);
+    signal = painting.run();
+    frames = painting.frames();
   } catch (const hal::Failure& failure) {
     if (failure.error().kind != hal::ErrorKind::kCancelled) throw;
     signal = Interrupt::received();
   }
   if (signal == 0) return 0;
-  reportInterruption(signal, job);
+  reportInterruption(signal, frames, job);
   return kSignalExitBase + signal;
 }
 

@@ -8,15 +8,20 @@
 
 #include "config/parameter_values.h"
 #include "hal/camera.h"
+#include "hal/outputs/movie/movie_output.h"
 #include "hal/pixel_format.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/scene/description/scene.h"
 
 namespace pleinair::app {
 
+/// The output that means Y4M on standard output; the summary then goes to standard error.
+inline constexpr const char* kStandardOutput = "-";
+
 /// The options of one run.
 struct PaintingOptions {
   std::filesystem::path output;
+  hal::MovieOptions movie;  ///< where the output is one
   std::string style = "watercolor";
   std::optional<hal::FrameSize> size;                 ///< default: the camera's
   std::optional<std::uint64_t> frames;                ///< default: all
@@ -37,6 +42,8 @@ PaintParameters startParameters(const PaintingOptions& options);
 struct PaintingJob {
   hal::Camera* camera = nullptr;  ///< stopped; delivers stepped
   hal::StreamRequest request;     ///< of a device
+  /// A device's clock; null for a camera that is never silent, which is not polled for signals.
+  const hal::Clock* clock = nullptr;
   PaintingOptions options;
   scene::Scene scene;
   std::string progressVerb;  ///< verb of the progress line: "painting"
@@ -48,8 +55,9 @@ struct PaintingJob {
 /// line on standard error.
 ///
 /// A movie, a single picture, poses and a contact sheet take their names once all of them are
-/// complete, and never after a failure or a signal. A folder or a pattern keeps the complete frames
-/// written so far. No partial file ever has a final name.
+/// complete. After a signal, or where the camera is lost, they are completed with the frames so far
+/// and kept; after another failure (a full disk, the GPU) they are not. A folder or a pattern keeps
+/// the complete frames written so far. No partial file ever has a final name.
 int runPainting(const PaintingJob& job);
 
 }  // namespace pleinair::app

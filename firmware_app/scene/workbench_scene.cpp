@@ -1,12 +1,11 @@
 #include "firmware_app/scene/workbench_scene.h"
 
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 #include <glm/mat4x4.hpp>
-#include <glm/trigonometric.hpp>
 
+#include "firmware_app/scene/attach_rotation.h"
 #include "hal/pending_file.h"
 #include "pipeline/scene/description/scene.h"
 
@@ -31,20 +30,6 @@ module_m = 0.006
 thickness_m = 0.03
 colour = "#3f8fb5"
 )";
-
-/// Rotation angles about the fixed axes x, then y, then z, as in scene files.
-glm::dvec3 rotationDegrees(const glm::dmat4& pose) {
-  const double cosY = std::hypot(pose[0][0], pose[0][1]);
-  glm::dvec3 radians(0.0, std::atan2(-pose[0][2], cosY), 0.0);
-  if (cosY > 1e-9) {
-    radians.x = std::atan2(pose[1][2], pose[2][2]);
-    radians.z = std::atan2(pose[0][1], pose[0][0]);
-  } else {
-    // Gimbal lock: the axes of x and z coincide, and x takes the whole rotation.
-    radians.x = std::atan2(-pose[2][1], pose[1][1]);
-  }
-  return glm::degrees(radians);
-}
 
 std::string tagTable(const hal::BenchTag& tag) {
   const glm::dmat4 worldFromAttach = tag.worldFromTag * scene::kTagFromAttach;

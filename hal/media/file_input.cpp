@@ -34,7 +34,18 @@ Result<FileInput> FileInput::open(const std::filesystem::path& path) {
   return file;
 }
 
+Result<FileInput> FileInput::standardInput() {
+  FileInput file(FileDescriptor(::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0)));
+  if (!file.file_) return tl::unexpected(errnoError("standard input", "cannot read", errno));
+  file.sizeBytes_ = -1;
+  return file;
+}
+
 std::int64_t FileInput::readAt(std::int64_t offset, std::uint8_t* bytes, std::size_t count) const {
+  if (isStream()) {
+    const ssize_t got = ::read(file_.get(), bytes, count);
+    return got < 0 ? -errno : std::int64_t{got};
+  }
   std::size_t done = 0;
   while (done < count) {
     const ssize_t got =
@@ -51,8 +62,9 @@ DemuxerIo::DemuxerIo(FileInput file) : state_(new State{.file = std::move(file)}
   constexpr int kBufferBytes = 64 * 1024;
   auto* buffer = static_cast<unsigned char*>(av_malloc(kBufferBytes));
   if (buffer == nullptr) throw std::bad_alloc();
-  AVIOContext* io = avio_alloc_context(buffer, kBufferBytes, 0, state_.get(), &DemuxerIo::read,
-                                       nullptr, &DemuxerIo::seek);
+  AVIOContext* io =
+      avio_alloc_context(buffer, kBufferBytes, 0, state_.get(), &DemuxerIo::read, nullptr,
+                         state_->file.isStream() ? nullptr : &DemuxerIo::seek);
   if (io == nullptr) av_free(buffer);
   io_ = owned<IoContext>(io);
 }

@@ -1,6 +1,8 @@
 #include "hal/media/frame_pixels.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -8,6 +10,7 @@
 
 #include "hal/media/errors.h"
 #include "hal/media/picture_decoder.h"
+#include "hal/media/wide_colour.h"
 
 namespace pleinair::hal::libav {
 namespace {
@@ -18,6 +21,10 @@ std::size_t asSize(int value) {
 
 std::uint8_t* rowAt(const AVFrame& frame, int plane, int y) {
   return frame.data[plane] + std::ptrdiff_t{y} * frame.linesize[plane];
+}
+
+FrameSize storedSize(const AVFrame& frame) {
+  return {frame.width, frame.height};
 }
 
 bool isJpegLayout(int format) {
@@ -129,10 +136,10 @@ void setColors(SwsContext& scaler, const AVFrame& source) {
                            sws_getCoefficients(SWS_CS_DEFAULT), 1, 0, kUnity, kUnity);
 }
 
-Result<Frame> convert(const AVFrame& source, AVPixelFormat format) {
+Result<Frame> convert(const AVFrame& source, AVPixelFormat format, FrameSize size) {
   constexpr int kFlags = SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_BITEXACT;
   const Scaler scaler(sws_getContext(source.width, source.height, plainLayout(source.format),
-                                     source.width, source.height, format, kFlags, nullptr, nullptr,
+                                     size.width, size.height, format, kFlags, nullptr, nullptr,
                                      nullptr));
   if (scaler == nullptr) {
     const char* name = av_get_pix_fmt_name(static_cast<AVPixelFormat>(source.format));
@@ -143,7 +150,7 @@ Result<Frame> convert(const AVFrame& source, AVPixelFormat format) {
                                 .remedy = "convert the recording to 8-bit YUV 4:2:0"});
   }
   setColors(*scaler, source);
-  Frame target = allocate(format, source.width, source.height);
+  Frame target = allocate(format, size.width, size.height);
   const int rows = sws_scale(scaler.get(), source.data, source.linesize, 0, source.height,
                              target->data, target->linesize);
   if (rows < 0) {
@@ -173,12 +180,12 @@ bool mayHaveAlpha(const AVFrame& frame) {
   return layout != nullptr && (layout->flags & (AV_PIX_FMT_FLAG_ALPHA | AV_PIX_FMT_FLAG_PAL)) != 0;
 }
 
-Result<Frame> convertToOurs(const AVFrame& source) {
-  if (source.format == AV_PIX_FMT_GRAY16BE || source.format == AV_PIX_FMT_GRAY16LE) {
-    return grey8FromGrey16(source);
-  }
-  if (!mayHaveAlpha(source)) return convert(source, AV_PIX_FMT_RGB24);
-  Result<Frame> rgba = convert(source, AV_PIX_FMT_RGBA);
+Result<Frame> convertToOurs(const AVFrame& source, FrameSize size) {
+  const bool isGrey16 =
+      source.format == AV_PIX_FMT_GRAY16BE || source.format == AV_PIX_FMT_GRAY16LE;
+  if (isGrey16 && size == storedSize(source)) return grey8FromGrey16(source);
+  if (!mayHaveAlpha(source)) return convert(source, AV_PIX_FMT_RGB24, size);
+  Result<Frame> rgba = convert(source, AV_PIX_FMT_RGBA, size);
   if (!rgba) return rgba;
   return overWhite(**rgba);
 }
@@ -189,16 +196,27 @@ LentPicture upright(const LentPicture& stored, Orientation orientation) {
 }
 
 Result<LentPicture> lendRgba(const AVFrame& frame) {
-  Result<Frame> converted = convert(frame, AV_PIX_FMT_RGBA);
+  Result<Frame> converted = convert(frame, AV_PIX_FMT_RGBA, storedSize(frame));
   if (!converted) return tl::unexpected(converted.error());
   const std::shared_ptr<const AVFrame> rgba = *std::move(converted);
   const FrameFormat format{.pixelFormat = PixelFormat::kRgba8, .size = {rgba->width, rgba->height}};
   return LentPicture{.view = viewOf(*rgba, format), .lease = rgba};
 }
 
-/// Lends the image as stored, without applying its orientation.
+/// Lends the image as stored, with square pixels, without applying its orientation.
 Result<LentPicture> lendStored(const std::shared_ptr<const AVFrame>& frame, Delivery delivery,
                                Orientation orientation) {
+  const FrameSize size = squarePixelSize(storedSize(*frame), frame->sample_aspect_ratio);
+  if (isWideColour(*frame)) {
+    Result<Frame> converted = toSrgb(*frame, size);
+    if (!converted) return tl::unexpected(converted.error());
+    return *lendWithoutCopy(*std::move(converted));
+  }
+  if (size != storedSize(*frame)) {
+    Result<Frame> converted = convertToOurs(*frame, size);
+    if (!converted) return tl::unexpected(converted.error());
+    return *lendWithoutCopy(*std::move(converted));
+  }
   std::optional<LentPicture> lent = lendWithoutCopy(frame);
   // YUYV cannot be rotated: pairs of its pixels share chroma.
   const bool mayStay =
@@ -207,8 +225,8 @@ Result<LentPicture> lendStored(const std::shared_ptr<const AVFrame>& frame, Deli
   const bool serves = lent && (mayStay || lent->view.format.pixelFormat == PixelFormat::kRgb8);
   if (serves) return *std::move(lent);
   Result<Frame> converted = (lent || delivery == Delivery::kRgb) && !mayHaveAlpha(*frame)
-                                ? convert(*frame, AV_PIX_FMT_RGB24)
-                                : convertToOurs(*frame);
+                                ? convert(*frame, AV_PIX_FMT_RGB24, size)
+                                : convertToOurs(*frame, size);
   if (!converted) return tl::unexpected(converted.error());
   return *lendWithoutCopy(*std::move(converted));
 }
@@ -242,6 +260,24 @@ std::optional<ColorEncoding> encodingOf(const AVFrame& frame) {
     default:
       return std::nullopt;
   }
+}
+
+FrameSize squarePixelSize(FrameSize stored, AVRational aspect) {
+  constexpr double kMostAspect = 8.0;  // more is a broken header
+  constexpr double kRounding = 0.005;
+  if (aspect.num <= 0 || aspect.den <= 0) return stored;
+  const double wide = av_q2d(aspect);
+  if (wide > kMostAspect || wide < 1.0 / kMostAspect || std::abs(wide - 1.0) < kRounding) {
+    return stored;
+  }
+  const auto scaled = [](int side, double by) {
+    return std::max(1, static_cast<int>(std::lround(side * by)));
+  };
+  const FrameSize wider{scaled(stored.width, wide), stored.height};
+  const FrameSize higher{stored.width, scaled(stored.height, 1.0 / wide)};
+  const FrameSize enlarged = wide > 1.0 ? wider : higher;
+  if (isAcceptedSize(enlarged)) return enlarged;
+  return wide > 1.0 ? higher : wider;
 }
 
 Result<LentPicture> lendPicture(const std::shared_ptr<const AVFrame>& frame, Delivery delivery) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hal/media/errors.h"
+#include "hal/media/heif_decoder.h"
 #include "hal/media/picture_header.h"
 
 namespace pleinair::hal::libav {
@@ -28,6 +29,8 @@ AVCodecID codecOf(PictureKind kind) {
       return AV_CODEC_ID_TIFF;
     case PictureKind::kWebp:
       return AV_CODEC_ID_WEBP;
+    case PictureKind::kHeif:
+      break;  // libheif's
     case PictureKind::kPnm:
       // libav has one decoder for all PNM types, which reads the type from the file
       return AV_CODEC_ID_PPM;
@@ -72,11 +75,14 @@ Result<PictureKind> checkHeader(std::span<const std::uint8_t> bytes, const std::
   return *kind;
 }
 
-CodecContext openDecoder(AVCodecID id) {
+CodecContext openPictureDecoder(AVCodecID id) {
   const AVCodec* codec = avcodec_find_decoder(id);
   if (codec == nullptr) return nullptr;
   auto decoder = owned<CodecContext>(avcodec_alloc_context3(codec));
-  decoder->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE;
+  decoder->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER;
+  // To libav's TIFF decoder each tag that it does not use, such as the resolution, would be an
+  // error.
+  if (id != AV_CODEC_ID_TIFF) decoder->err_recognition |= AV_EF_EXPLODE;
   decoder->max_pixels = kMaxPixels;
   decoder->thread_count = 1;  // keeps its log lines on this thread
   return avcodec_open2(decoder.get(), codec, nullptr) < 0 ? nullptr : std::move(decoder);
@@ -88,8 +94,9 @@ Result<std::shared_ptr<const AVFrame>> decode(const AVPacket& packet, const std:
   const Result<PictureKind> kind = checkHeader(bytes, subject);
   if (!kind) return tl::unexpected(kind.error());
 
+  if (*kind == PictureKind::kHeif) return decodeHeif(bytes, subject);
   const LogCapture log;
-  const CodecContext decoder = openDecoder(codecOf(*kind));
+  const CodecContext decoder = openPictureDecoder(codecOf(*kind));
   if (decoder == nullptr) {
     return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
                                 .subject = subject,
@@ -111,6 +118,8 @@ Result<std::shared_ptr<const AVFrame>> decode(const AVPacket& packet, const std:
   }
   const FrameSize size{frame->width, frame->height};
   if (!isAcceptedSize(size)) return tl::unexpected(tooLarge(subject, size));
+  // Resolutions in pictures' files are of no use to image viewers either.
+  frame->sample_aspect_ratio = {0, 1};
   return std::shared_ptr<const AVFrame>(std::move(frame));
 }
 

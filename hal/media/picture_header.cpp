@@ -1,6 +1,7 @@
 #include "hal/media/picture_header.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string_view>
 
@@ -140,6 +141,19 @@ std::optional<FrameSize> pnmSize(Bytes bytes) {
 
 }  // namespace
 
+namespace {
+
+/// ISO/IEC 23008-12: a file type box whose major brand is one of HEIF's for pictures.
+bool isHeif(Bytes bytes) {
+  if (bytes.size() < 12 || !startsWith(bytes.subspan(4), "ftyp")) return false;
+  constexpr std::array<std::string_view, 7> kBrands{"heic", "heix", "heim", "heis",
+                                                    "mif1", "avif", "miaf"};
+  return std::ranges::any_of(
+      kBrands, [&](std::string_view brand) { return startsWith(bytes.subspan(8), brand); });
+}
+
+}  // namespace
+
 std::optional<PictureKind> pictureKindOf(Bytes bytes) {
   if (startsWith(bytes, "\x89PNG\r\n\x1a\n")) return PictureKind::kPng;
   if (startsWith(bytes, "\xFF\xD8\xFF")) return PictureKind::kJpeg;
@@ -148,6 +162,7 @@ std::optional<PictureKind> pictureKindOf(Bytes bytes) {
   if (startsWith(bytes, "RIFF") && bytes.size() >= 12 && startsWith(bytes.subspan(8), "WEBP")) {
     return PictureKind::kWebp;
   }
+  if (isHeif(bytes)) return PictureKind::kHeif;
   if (bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6' &&
       (bytes[2] <= ' ' || bytes[2] == '#')) {
     return PictureKind::kPnm;
@@ -169,6 +184,7 @@ std::optional<FrameSize> peekPictureSize(PictureKind kind, Bytes bytes) {
     case PictureKind::kPnm:
       return pnmSize(bytes);
     case PictureKind::kTiff:
+    case PictureKind::kHeif:
       break;
   }
   return std::nullopt;

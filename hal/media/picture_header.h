@@ -9,13 +9,13 @@
 
 namespace pleinair::hal::libav {
 
-enum class PictureKind { kPng, kJpeg, kBmp, kTiff, kWebp, kPnm };
+enum class PictureKind { kPng, kJpeg, kBmp, kTiff, kWebp, kPnm, kHeif };
 
 /// The file type by its signature, the first bytes.
 std::optional<PictureKind> pictureKindOf(std::span<const std::uint8_t> bytes);
 
 /// The size in the header of a picture file in memory, without decoding. Nothing if no header is
-/// found (also in broken files) and for TIFF, which is not parsed.
+/// found (also in broken files) and for TIFF and HEIF, which are not parsed.
 std::optional<FrameSize> peekPictureSize(PictureKind kind, std::span<const std::uint8_t> bytes);
 
 /// A defect of a picture file in memory that libav would hide: it fills the missing part of a JPEG

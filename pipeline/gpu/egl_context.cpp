@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -15,12 +16,14 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gbm.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "hal/error.h"
 #include "hal/file_descriptor.h"
 #include "pipeline/gpu/gl.h"
 #include "pipeline/gpu/gpu_loss.h"
+#include "pipeline/gpu/shared_displays.h"
 
 namespace pleinair::gpu {
 namespace {
@@ -142,6 +145,40 @@ hal::Result<void> checkDeviceLimit(const ContextInfo& context, hal::FrameSize si
 
 namespace {
 
+/// The shared displays that contexts were made on, which stay initialised.
+class SharedDisplays {
+ public:
+  static SharedDisplays& instance() {
+    static SharedDisplays displays;
+    return displays;
+  }
+  void add(EGLDisplay display) {
+    const std::scoped_lock lock(mutex_);
+    if (std::ranges::find(displays_, display) == displays_.end()) displays_.push_back(display);
+  }
+  void terminate() {
+    const std::scoped_lock lock(mutex_);
+    for (EGLDisplay display : displays_) eglTerminate(display);
+    displays_.clear();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<EGLDisplay> displays_;
+};
+
+/// The next step where no context can be made.
+std::string contextRemedy() {
+  rlimit memory{};
+  if (getrlimit(RLIMIT_AS, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY) {
+    return fmt::format(
+        "this process may use {} MiB of address space (ulimit -v), which a driver takes more than: "
+        "raise that limit first",
+        memory.rlim_cur / (1024 * 1024));
+  }
+  return "install Mesa's EGL (libegl1, libgl1-mesa-dri) or the vendor's driver";
+}
+
 /// A context on a display, and what the display was made from.
 class OpenContext {
  public:
@@ -165,6 +202,7 @@ class OpenContext {
   std::string_view open(EGLDisplay display, std::string_view platform) {
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return "no display";
     display_ = display;
+    if (node_.device == nullptr) SharedDisplays::instance().add(display);
     if (!hasWord(eglQueryString(display_, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context")) {
       return "needs a surface";
     }
@@ -333,14 +371,17 @@ EglContext::EglContext() : impl_(std::make_unique<Impl>()) {
     throw hal::Failure(Error{.kind = ErrorKind::kUnsupported,
                              .subject = "GPU",
                              .problem = "no OpenGL ES 3.1 context: " + impl_->attempts,
-                             .remedy = "install Mesa's EGL (libegl1, libgl1-mesa-dri) or the "
-                                       "vendor's driver",
+                             .remedy = contextRemedy(),
                              .domain = ErrorDomain::kEgl});
   }
   abortOnGlErrors();
 }
 
 EglContext::~EglContext() = default;
+
+void terminateDisplays() {
+  SharedDisplays::instance().terminate();
+}
 
 const ContextInfo& EglContext::info() const {
   return impl_->chosen->info();

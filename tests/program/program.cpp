@@ -66,6 +66,24 @@ void prepareEnvironment(const std::vector<std::string>& wanted) {
   }
 }
 
+void breakPipe(int stream) {
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0 || dup2(ends[1], stream) < 0) _exit(127);
+  close(ends[0]);
+}
+
+void spoilStreams(Streams streams) {
+  signal(SIGPIPE, SIG_DFL);
+  if (streams == Streams::kBrokenPipes || streams == Streams::kBrokenOutput) {
+    breakPipe(STDOUT_FILENO);
+  }
+  if (streams == Streams::kBrokenPipes) breakPipe(STDERR_FILENO);
+  if (streams == Streams::kClosed || streams == Streams::kClosedError) close(STDERR_FILENO);
+  if (streams != Streams::kClosed) return;
+  close(STDIN_FILENO);
+  close(STDOUT_FILENO);
+}
+
 void enterRemovedFolder() {
   const TemporaryFolder folder;
   if (chdir(folder.path().c_str()) != 0) _exit(127);
@@ -77,6 +95,11 @@ void enterRemovedFolder() {
       limits.printsInto.empty() ? out.write : open(limits.printsInto.c_str(), O_WRONLY);
   if (dup2(file, STDOUT_FILENO) < 0) _exit(127);
   dup2(error.write, STDERR_FILENO);
+  if (!limits.readsFrom.empty() &&
+      dup2(open(limits.readsFrom.c_str(), O_RDONLY), STDIN_FILENO) < 0) {
+    _exit(127);
+  }
+  spoilStreams(limits.streams);
   if (limits.fileBytes > 0) {
     // A write beyond the limit then fails instead of killing.
     signal(SIGXFSZ, SIG_IGN);
@@ -107,6 +130,11 @@ bool drain(const pollfd& ready, std::string& text) {
   if (count <= 0) return false;
   text.append(bytes.data(), static_cast<std::size_t>(count));
   return true;
+}
+
+void dropCompileNotice(std::string& error) {
+  const std::size_t at = error.find("pleinair: info: compiling shaders");
+  if (at != std::string::npos) error.erase(at, error.find('\n', at) + 1 - at);
 }
 
 void callMeanwhile(const ProgramLimits& limits, pid_t child) {
@@ -170,6 +198,7 @@ ProgramRun runProgram(const std::vector<std::string>& arguments, const ProgramLi
   rusage usage{};
   wait4(child, &status, 0, &usage);
   run.peakMemoryMebibytes = usage.ru_maxrss / 1024;
+  if (!limits.keepsCompileNotice) dropCompileNotice(run.error);
   run.status = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   return run;
 }

@@ -20,6 +20,15 @@ struct ProgramRun {
 /// Whether the program was built with a sanitizer, which takes memory of its own.
 bool isSanitized();
 
+/// What the standard streams are.
+enum class Streams {
+  kPipes,         ///< read by the test
+  kClosedError,   ///< standard error is closed
+  kClosed,        ///< all are closed
+  kBrokenPipes,   ///< standard output's and error's readers are gone
+  kBrokenOutput,  ///< standard output's reader is gone
+};
+
 struct ProgramLimits {
   /// No file may grow beyond this: a full disk, as the program sees it. 0: none.
   unsigned long fileBytes = 0;
@@ -31,6 +40,12 @@ struct ProgramLimits {
   std::string terminateWhenExists;
   /// The file that takes its standard output, instead of ProgramRun::out; empty: none.
   std::string printsInto;
+  /// What is its standard input, instead of the test's; empty: the test's.
+  std::string readsFrom = {};
+  Streams streams = Streams::kPipes;
+  /// Keeps the line that says that shaders are compiled, which depends on the driver's cache, in
+  /// ProgramRun::error.
+  bool keepsCompileNotice = false;
   /// "NAME=VALUE" sets a variable, "NAME" takes it away. Without, the environment is the test's,
   /// with no variable of the program's but an empty PLEINAIR_CONFIG: what the machine is set up for
   /// does not count.

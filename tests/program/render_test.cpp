@@ -1,9 +1,12 @@
 // The main job through the program's own door: recordings in, paintings out.
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -186,7 +189,7 @@ TEST_F(Render, WritesAContactSheetOfPairs) {
   EXPECT_GT(sheet->size().height, 3 * 48);
 }
 
-TEST_F(Render, LeavesNothingBehindWhenTerminated) {
+TEST_F(Render, LeavesNothingBehindWhenTerminatedBeforeTheFirstFrame) {
   writeMedia(path("in.y4m"), 300, {640, 480});
   ProgramLimits limits;
   limits.terminateWhenExists = path(".out.mp4.part");
@@ -197,6 +200,82 @@ TEST_F(Render, LeavesNothingBehindWhenTerminated) {
   EXPECT_EQ(folder_.entryCount(), 1u);
 }
 
+TEST_F(Render, CompletesAMovieWhenTerminated) {
+  writeMedia(path("in.y4m"), 300, {640, 480});
+  for (const std::string output : {"out.mp4", "out.mkv", "out.y4m"}) {
+    const std::string poses = path(".poses.json.part");
+    ProgramLimits limits;
+    limits.meanwhile = [&](pid_t program) {
+      std::error_code ignored;
+      const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+      while (!std::filesystem::exists(poses) || std::filesystem::file_size(poses, ignored) == 0) {
+        if (std::chrono::steady_clock::now() > deadline) break;
+        std::this_thread::yield();
+      }
+      kill(program, SIGINT);
+    };
+    const ProgramRun run = runProgram({"render", "--input", path("in.y4m"), "--output",
+                                       path(output), "--poses", path("poses.json")},
+                                      limits);
+    EXPECT_EQ(run.status, 128 + SIGINT) << run.error;
+    const auto played = play(path(output));
+    ASSERT_TRUE(played) << output << ": " << played.error().message();
+    const std::size_t frames = played->frames.size();
+    EXPECT_GT(frames, 0u);
+    EXPECT_LT(frames, 300u);
+    const std::string kept = frames == 1
+                                 ? "the frame so far is kept in "
+                                 : "the " + std::to_string(frames) + " frames so far are kept in ";
+    EXPECT_EQ(run.error, "pleinair: interrupted by SIGINT; " + kept + path(output) + "\n");
+    EXPECT_THAT(run.out, HasSubstr("painted " + std::to_string(frames) + " frame"));
+    const std::string lines = contentOf(path("poses.json"));
+    EXPECT_EQ(std::ranges::count(lines, '\n'), static_cast<std::ptrdiff_t>(frames));
+    std::filesystem::remove(path("poses.json"));
+    std::filesystem::remove(path(output));
+    EXPECT_EQ(folder_.entryCount(), 1u) << "no partial file";
+  }
+}
+
+TEST_F(Render, RefusesAFolderThatAnotherRunPaintsInto) {
+  writeMedia(path("in.y4m"), 300, {640, 480});
+  ProgramLimits limits;
+  ProgramRun second;
+  limits.meanwhile = [&](pid_t first) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!std::filesystem::exists(path("out/000000.png"))) {
+      if (std::chrono::steady_clock::now() > deadline) break;
+      std::this_thread::yield();
+    }
+    second = render("in.y4m", "out/", {"--frames", "2"});
+    kill(first, SIGINT);
+  };
+  runProgram({"render", "--input", path("in.y4m"), "--output", path("out/")}, limits);
+  EXPECT_EQ(second.status, 1);
+  EXPECT_THAT(second.error, HasSubstr("another run writes pictures of these names; wait for its "
+                                      "end, or give another folder"));
+}
+
+TEST_F(Render, CleansUpAfterAKilledRun) {
+  writeMedia(path("in.y4m"), 2);
+  std::filesystem::create_directory(path("out"));
+  std::ofstream(path("out/.000007.png.part")) << "half a picture";
+  std::ofstream(path("out/.%06d.png.part")) << "";
+  std::ofstream(path("out/.notes.part")) << "somebody else's";
+  ProgramRun run = render("in.y4m", "out/");
+  ASSERT_EQ(run.status, 0) << run.error;
+  EXPECT_EQ(run.error, "");
+  EXPECT_FALSE(std::filesystem::exists(path("out/.000007.png.part")));
+  EXPECT_FALSE(std::filesystem::exists(path("out/.%06d.png.part")));
+  EXPECT_TRUE(std::filesystem::exists(path("out/.notes.part")));
+
+  std::ofstream(path(".old.mp4.part")) << "what there is of a movie";
+  run = render("in.y4m", "new.mp4");
+  ASSERT_EQ(run.status, 0) << run.error;
+  EXPECT_EQ(run.error, "pleinair: warning: " + path(".old.mp4.part") +
+                           ": was left by a run that was killed; it plays up to there: rename it, "
+                           "or remove it\n");
+}
+
 TEST_F(Render, KeepsTheWholePicturesOfAFolderWhenTerminated) {
   writeMedia(path("in.y4m"), 300, {640, 480});
   ProgramLimits limits;
@@ -204,10 +283,13 @@ TEST_F(Render, KeepsTheWholePicturesOfAFolderWhenTerminated) {
   const ProgramRun run =
       runProgram({"render", "--input", path("in.y4m"), "--output", path("out/")}, limits);
   EXPECT_EQ(run.status, 128 + 15);
-  EXPECT_EQ(run.error, "pleinair: interrupted by SIGTERM; complete frames are kept\n");
+  std::size_t pictures = 0;
   for (const auto& entry : std::filesystem::directory_iterator(path("out"))) {
     EXPECT_TRUE(hal::readPicture(entry.path())) << entry.path();
+    ++pictures;
   }
+  EXPECT_EQ(run.error, "pleinair: interrupted by SIGTERM; the " + std::to_string(pictures) +
+                           " frames so far are kept in " + path("out/") + "\n");
 }
 
 TEST_F(Render, PaintsPicturesOfSeveralSizesAndKindsAtTheFirstsSize) {
@@ -249,6 +331,35 @@ TEST(Program, FailsWhereWhatItPrintsDoesNotArrive) {
     EXPECT_EQ(run.status, 2) << command;
     EXPECT_EQ(run.error, "pleinair: standard output: cannot write: No space left on device\n");
   }
+}
+
+TEST(Program, OutlivesItsLog) {
+  const TemporaryFolder folder;
+  const std::string in = (folder.path() / "in.y4m").string();
+  const std::string out = (folder.path() / "out.mp4").string();
+  writeMedia(in, 3);
+  for (const auto& [streams, status] :
+       {std::pair{Streams::kClosedError, 0}, {Streams::kBrokenPipes, 0}, {Streams::kClosed, 2}}) {
+    ProgramLimits limits;
+    limits.streams = streams;
+    EXPECT_EQ(
+        runProgram({"render", "--input", in, "--output", out, "--scene", "/none"}, limits).status,
+        2);
+    const ProgramRun run = runProgram({"render", "--input", in, "--output", out}, limits);
+    EXPECT_EQ(run.status, status) << static_cast<int>(streams);
+    const auto played = play(out);
+    ASSERT_TRUE(played) << played.error().message();
+    EXPECT_EQ(played->frames.size(), 3u);
+    std::filesystem::remove(out);
+  }
+}
+
+TEST(Program, EndsInSilenceWhereTheReaderHasHadEnough) {
+  ProgramLimits limits;
+  limits.streams = Streams::kBrokenOutput;
+  const ProgramRun run = runProgram({"styles"}, limits);
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.error, "");
 }
 
 TEST(Program, HelpsAndSaysItsVersion) {

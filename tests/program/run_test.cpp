@@ -3,6 +3,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <optional>
 #include <regex>
@@ -11,6 +12,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include "hal/media/picture_file.h"
 #include "tests/program/program.h"
@@ -95,6 +99,43 @@ TEST_F(Run, FinishesItsFileWhenItIsTerminated) {
     const auto played = play(path("out.mp4"));
     ASSERT_TRUE(played);
     EXPECT_EQ(played->frames.size(), static_cast<std::size_t>(shown));
+  }
+}
+
+TEST_F(Run, FailsWhereItsStatusPortIsTakenWhileItCompiles) {
+  writeMedia(path("in.y4m"), 5);
+  const int taken = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{
+      .sin_family = AF_INET, .sin_port = 0, .sin_addr = {htonl(INADDR_LOOPBACK)}, .sin_zero = {}};
+  socklen_t length = sizeof address;
+  ASSERT_EQ(bind(taken, reinterpret_cast<sockaddr*>(&address), length), 0);
+  ASSERT_EQ(listen(taken, 1), 0);
+  getsockname(taken, reinterpret_cast<sockaddr*>(&address), &length);
+  const std::string port = "127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+  const ProgramRun live = run(
+      {"--camera", path("in.y4m"), "--output", path("out.mp4"), "--set", "status.listen=" + port},
+      {.environment = {"MESA_SHADER_CACHE_DISABLE=true"}});
+  close(taken);
+  EXPECT_EQ(live.status, 1);
+  EXPECT_THAT(live.error, HasSubstr("status.listen: cannot listen at " + port));
+  EXPECT_EQ(folder_.entryCount(), 1u);
+}
+
+TEST_F(Run, CompletesItsMovieWithoutItsLog) {
+  writeMedia(path("in.y4m"), 5);
+  for (const Streams streams : {Streams::kBrokenPipes, Streams::kClosedError}) {
+    ProgramLimits limits;
+    limits.streams = streams;
+    // A stale part makes it log a line.
+    std::ofstream(path(".old.mp4.part")) << "old";
+    const ProgramRun live =
+        run({"--camera", path("in.y4m"), "--output", path("out.mp4"), "--frames", "6"}, limits);
+    EXPECT_EQ(live.status, 0);
+    const auto played = play(path("out.mp4"));
+    ASSERT_TRUE(played) << played.error().message();
+    EXPECT_EQ(played->frames.size(), 6u);
+    std::filesystem::remove(path("out.mp4"));
+    EXPECT_EQ(folder_.entryCount(), 2u) << "no partial file";
   }
 }
 
@@ -278,6 +319,36 @@ TEST_F(RunInWindow, GoesOnWithTheMovieWhereTheXServerDies) {
   const auto played = play(path("out.mp4"));
   ASSERT_TRUE(played);
   EXPECT_EQ(played->frames.size(), 60U);
+}
+
+TEST_F(RunInWindow, FillsTheScreenWithoutAWindowManager) {
+  hal::Image picture(kRgb);
+  std::ranges::fill(picture.plane(0), std::uint8_t{90});
+  hal::orThrow(hal::writePng(path("in.png"), picture.view()));
+  const auto isFilled = [this] {
+    hal::Image screen = server_->screen();
+    const auto red = [&](int x, int y) {
+      return screen.row(0, y)[3 * static_cast<std::size_t>(x)];
+    };
+    return red(3, 3) == 90 && red(kScreen.width - 4, 3) == 90 &&
+           red(kScreen.width - 4, kScreen.height - 4) == 90;
+  };
+  const auto comes = [&](bool filled) {
+    const auto deadline = std::chrono::steady_clock::now() + kPatience;
+    while (isFilled() != filled && std::chrono::steady_clock::now() < deadline) {
+    }
+    return isFilled() == filled;
+  };
+  const ProgramRun live = runShown({"--camera", path("in.png"), "--style", "none"}, [&](pid_t) {
+    waitForTitle("none.*");
+    EXPECT_FALSE(isFilled());
+    server_->press({"f"});
+    EXPECT_TRUE(comes(true));
+    server_->press({"f"});
+    EXPECT_TRUE(comes(false));
+    server_->press({"q"});
+  });
+  EXPECT_EQ(live.status, 0) << live.error;
 }
 
 TEST_F(RunInWindow, StopsWithinTwoSecondsOfASignal) {

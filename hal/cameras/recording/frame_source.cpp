@@ -16,9 +16,10 @@ namespace {
 
 using SourceResult = Result<std::unique_ptr<FrameSource>>;
 
-SourceResult pictures(const Result<std::vector<std::filesystem::path>>& paths, Duration period) {
+SourceResult pictures(const Result<std::vector<std::filesystem::path>>& paths,
+                      const RecordingOptions& options) {
   if (!paths) return tl::unexpected(paths.error());
-  return openPictures(*paths, period);
+  return openPictures(*paths, options.picturePeriod, options);
 }
 
 enum class RecordingKind { kPicture, kMovie };
@@ -43,15 +44,16 @@ Result<RecordingKind> kindOf(const std::filesystem::path& path) {
 
 }  // namespace
 
-SourceResult openSource(const std::filesystem::path& path, Duration picturePeriod) {
+SourceResult openSource(const std::filesystem::path& path, const RecordingOptions& options) {
+  if (path == kStandardInput) return openMovie(path, options);
   std::error_code status;
   const std::filesystem::file_status file = std::filesystem::status(path, status);
-  if (std::filesystem::is_directory(file)) return pictures(picturesIn(path), picturePeriod);
+  if (std::filesystem::is_directory(file)) return pictures(picturesIn(path), options);
   if (!std::filesystem::exists(file)) {
     if (file.type() == std::filesystem::file_type::not_found && looksNumbered(path)) {
       const Result<NumberedPath> pattern = NumberedPath::parse(path.string());
       if (!pattern) return tl::unexpected(pattern.error());
-      return pictures(picturesOf(*pattern, path.string()), picturePeriod);
+      return pictures(picturesOf(*pattern, path.string()), options);
     }
     const int value = status.value() != 0 ? status.value() : ENOENT;
     return tl::unexpected(
@@ -59,8 +61,8 @@ SourceResult openSource(const std::filesystem::path& path, Duration picturePerio
   }
   const Result<RecordingKind> kind = kindOf(path);
   if (!kind) return tl::unexpected(kind.error());
-  if (*kind == RecordingKind::kPicture) return openPictures({path}, std::nullopt);
-  return openMovie(path);
+  if (*kind == RecordingKind::kPicture) return openPictures({path}, std::nullopt, options);
+  return openMovie(path, options);
 }
 
 }  // namespace pleinair::hal::recording

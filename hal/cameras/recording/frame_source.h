@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "hal/cameras/recording/recording.h"
 #include "hal/clock.h"
 #include "hal/error.h"
 #include "hal/media/handles.h"
@@ -33,17 +34,19 @@ class FrameSource {
   virtual SourceItem next() = 0;
 };
 
-/// Errors: as Camera::start.
-Result<std::unique_ptr<FrameSource>> openMovie(const std::filesystem::path& path);
+/// Errors: as Camera::start. Of the options, `from` and `to` count here.
+Result<std::unique_ptr<FrameSource>> openMovie(const std::filesystem::path& path,
+                                               const RecordingOptions& options);
 
 /// Pictures in the given order, `period` apart (a single picture has none). Broken ones are
-/// skipped.
+/// skipped, and options.onSkipped is told.
 std::unique_ptr<FrameSource> openPictures(std::vector<std::filesystem::path> paths,
-                                          std::optional<Duration> period);
+                                          std::optional<Duration> period,
+                                          const RecordingOptions& options);
 
 /// Opens a movie, a picture, a folder or a pattern, whichever `path` names. Errors: as
 /// Camera::start.
 Result<std::unique_ptr<FrameSource>> openSource(const std::filesystem::path& path,
-                                                Duration picturePeriod);
+                                                const RecordingOptions& options);
 
 }  // namespace pleinair::hal::recording

@@ -156,11 +156,13 @@ Result<libav::CodecContext> openDecoder(const AVStream& stream, const std::strin
 
 class MovieSource final : public FrameSource {
  public:
-  MovieSource(std::string subject, DemuxedFile file, libav::CodecContext decoder)
+  MovieSource(std::string subject, DemuxedFile file, libav::CodecContext decoder,
+              const RecordingOptions& options)
       : subject_(std::move(subject)), file_(std::move(file)), decoder_(std::move(decoder)) {
     if (isMp4()) {
       boxes_ = scanMp4(file_.io.file(), static_cast<std::uint32_t>(file_.stream->id));
     }
+    limitTo(options);
   }
 
   std::optional<Duration> framePeriod() const override {
@@ -171,6 +173,7 @@ class MovieSource final : public FrameSource {
   }
 
   std::optional<std::uint64_t> frameCount() const override {
+    if (from_ || to_) return std::nullopt;
     std::int64_t count = file_.stream->nb_frames;
     // For Y4M, libav divides the file's size by a frame's, and one frame lasts one unit of the time
     // base.
@@ -186,6 +189,11 @@ class MovieSource final : public FrameSource {
   bool isMp4() const { return isOneOf(file_.context->iformat->name, "mp4"); }
   bool isY4m() const { return isOneOf(file_.context->iformat->name, "yuv4mpegpipe"); }
   bool isMatroska() const { return isOneOf(file_.context->iformat->name, "matroska"); }
+  void limitTo(const RecordingOptions& options);
+  bool isBefore(const AVFrame& frame, const std::optional<std::int64_t>& time) const {
+    return time && frame.best_effort_timestamp != AV_NOPTS_VALUE &&
+           frame.best_effort_timestamp < *time;
+  }
   void tagWithOrientation(AVFrame& frame) const;
   void leaveOut() {
     ++dropped_;
@@ -202,6 +210,9 @@ class MovieSource final : public FrameSource {
   libav::CodecContext decoder_;
   libav::Packet packet_ = libav::makePacket();
   Mp4Boxes boxes_;
+  // The part to be played, in the stream's time base.
+  std::optional<std::int64_t> from_;
+  std::optional<std::int64_t> to_;
   bool waitingForKey_ = false;
   bool atEnd_ = false;
   std::uint64_t dropped_ = 0;  ///< since the previous delivered frame
@@ -214,6 +225,21 @@ bool MovieSource::isSound(const AVFrame& frame) const {
   const bool broken = (frame.flags & AV_FRAME_FLAG_CORRUPT) != 0 || frame.decode_error_flags != 0;
   // The frames after a broken one are predicted from it, up to the next key frame.
   return !broken && (!waitingForKey_ || frame.key_frame != 0);
+}
+
+/// Seeks to the key frame before the part's beginning; the frames between are decoded and dropped.
+void MovieSource::limitTo(const RecordingOptions& options) {
+  const std::int64_t start =
+      file_.stream->start_time == AV_NOPTS_VALUE ? 0 : file_.stream->start_time;
+  // Rounded to nearest, so that a time that ffprobe prints finds its frame.
+  const auto inStream = [&](Duration time) {
+    return start + av_rescale_q(time.count(), {1, 1'000'000'000}, file_.stream->time_base);
+  };
+  if (options.to) to_ = inStream(*options.to);
+  if (options.from <= Duration::zero()) return;
+  from_ = inStream(options.from);
+  // Where that fails, all frames from the beginning on are decoded.
+  av_seek_frame(file_.context.get(), file_.stream->index, *from_, AVSEEK_FLAG_BACKWARD);
 }
 
 /// The container's display matrix takes precedence over the codec's.
@@ -238,6 +264,8 @@ SourceFrame MovieSource::deliver(libav::Frame frame) {
     item.time = Duration(time);
   }
   tagWithOrientation(*frame);
+  frame->sample_aspect_ratio =
+      av_guess_sample_aspect_ratio(file_.context.get(), file_.stream, frame.get());
   item.frame = std::shared_ptr<const AVFrame>(std::move(frame));
   return item;
 }
@@ -253,6 +281,11 @@ SourceItem MovieSource::next() {
       leaveOut();
     } else if (const FrameSize size{frame->width, frame->height}; !isAcceptedSize(size)) {
       return libav::tooLarge(subject_, size);
+    } else if (isBefore(*frame, from_)) {
+      dropped_ = 0;
+      waitingForKey_ = false;
+    } else if (to_ && !isBefore(*frame, to_)) {
+      return SourceEnd{};
     } else {
       return deliver(std::move(frame));
     }
@@ -296,13 +329,16 @@ std::optional<Error> MovieSource::whyTruncated(const libav::LogCapture& log) con
   if (isMp4()) {
     // Edit lists skip samples on purpose. If libav reported errors in the index, they count as
     // lost.
-    const bool indexIsShort = packetsRead_ < avformat_index_get_entries_count(file_.stream);
-    const bool samplesAreLost = !file_.complaint.empty() && packetsRead_ < file_.stream->nb_frames;
+    const bool isWhole = !from_;
+    const bool indexIsShort =
+        isWhole && packetsRead_ < avformat_index_get_entries_count(file_.stream);
+    const bool samplesAreLost =
+        isWhole && !file_.complaint.empty() && packetsRead_ < file_.stream->nb_frames;
     cut = indexIsShort || samplesAreLost || (boxes_.fragmentSamples > 0 && boxes_.aborted);
   } else if (isY4m()) {
     // libav reports no error if the last frame is too short.
-    cut = lastPacketEnd_ != file_.io.file().sizeBytes();
-  } else if (isMatroska() && segmentBreaksOff(file_.io.file())) {
+    cut = !file_.io.file().isStream() && lastPacketEnd_ != file_.io.file().sizeBytes();
+  } else if (isMatroska() && !file_.io.file().isStream() && segmentBreaksOff(file_.io.file())) {
     cut = true;
   } else if (!log.firstError().empty()) {
     return aborted(subject_, "is truncated: " + log.firstError());
@@ -313,10 +349,13 @@ std::optional<Error> MovieSource::whyTruncated(const libav::LogCapture& log) con
 
 }  // namespace
 
-Result<std::unique_ptr<FrameSource>> openMovie(const std::filesystem::path& path) {
+Result<std::unique_ptr<FrameSource>> openMovie(const std::filesystem::path& path,
+                                               const RecordingOptions& options) {
   libav::redirectLog();
-  const std::string subject = path.string();
-  Result<libav::FileInput> input = libav::FileInput::open(path);
+  const bool isStandardInput = path == kStandardInput;
+  const std::string subject = isStandardInput ? "standard input" : path.string();
+  Result<libav::FileInput> input =
+      isStandardInput ? libav::FileInput::standardInput() : libav::FileInput::open(path);
   if (!input) return tl::unexpected(input.error());
   DemuxedFile file{.io = libav::DemuxerIo(*std::move(input)), .context = nullptr, .complaint = {}};
   if (Result<void> opened = openContainer(file, subject); !opened) {
@@ -338,7 +377,7 @@ Result<std::unique_ptr<FrameSource>> openMovie(const std::filesystem::path& path
   file.stream = file.context->streams[index];
   Result<libav::CodecContext> decoder = openDecoder(*file.stream, subject);
   if (!decoder) return tl::unexpected(decoder.error());
-  return std::make_unique<MovieSource>(subject, std::move(file), *std::move(decoder));
+  return std::make_unique<MovieSource>(subject, std::move(file), *std::move(decoder), options);
 }
 
 }  // namespace pleinair::hal::recording

@@ -14,8 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 10> kPictureEndings = {
-    ".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp", ".ppm", ".pgm", ".pnm"};
+constexpr std::array<std::string_view, 13> kPictureEndings = {
+    ".png",  ".jpg",  ".jpeg", ".bmp", ".tif", ".tiff", ".webp",
+    ".heic", ".heif", ".avif", ".ppm", ".pgm", ".pnm"};
 
 bool isDigit(char c) {
   return c >= '0' && c <= '9';
@@ -88,6 +89,19 @@ Result<std::vector<fs::path>> picturesIn(const fs::path& folder) {
   return files;
 }
 
+std::vector<std::string> otherFilesIn(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) return names;
+  const Result<std::vector<fs::path>> files = filesIn(folder);
+  if (!files) return names;
+  for (const fs::path& file : *files) {
+    if (!isPictureName(file)) names.push_back(file.filename().string());
+  }
+  std::ranges::sort(names, naturallyLess);
+  return names;
+}
+
 Result<std::vector<fs::path>> picturesOf(const NumberedPath& pattern,
                                          std::string_view patternText) {
   const Result<std::vector<fs::path>> files =
@@ -116,11 +130,22 @@ namespace {
 
 class PictureSource final : public FrameSource {
  public:
-  PictureSource(std::vector<std::filesystem::path> paths, std::optional<Duration> period)
-      : paths_(std::move(paths)), period_(period) {}
+  PictureSource(std::vector<std::filesystem::path> paths, std::optional<Duration> period,
+                const RecordingOptions& options)
+      : paths_(std::move(paths)), period_(period), onSkipped_(options.onSkipped) {
+    if (!period_) return;
+    // The pictures whose times are in the part, counted in whole periods.
+    const auto countBefore = [&](Duration time) {
+      const auto count = std::max<std::int64_t>((time + *period_ - Duration(1)) / *period_, 0);
+      return std::min(static_cast<std::size_t>(count), paths_.size());
+    };
+    if (options.to) paths_.resize(countBefore(*options.to));
+    next_ = countBefore(options.from);
+    first_ = next_;
+  }
 
   std::optional<Duration> framePeriod() const override { return period_; }
-  std::optional<std::uint64_t> frameCount() const override { return paths_.size(); }
+  std::optional<std::uint64_t> frameCount() const override { return paths_.size() - first_; }
 
   SourceItem next() override {
     std::optional<Error> lastBroken;
@@ -134,6 +159,7 @@ class PictureSource final : public FrameSource {
       }
       if (frame.error().kind != ErrorKind::kInvalidInput) return frame.error();
       lastBroken = frame.error();
+      if (period_ && onSkipped_) onSkipped_(*lastBroken);
     }
     return SourceEnd{.truncated = lastBroken};
   }
@@ -141,14 +167,17 @@ class PictureSource final : public FrameSource {
  private:
   std::vector<std::filesystem::path> paths_;
   std::optional<Duration> period_;
+  std::function<void(const Error&)> onSkipped_;
   std::size_t next_ = 0;
+  std::size_t first_ = 0;
 };
 
 }  // namespace
 
 std::unique_ptr<FrameSource> openPictures(std::vector<std::filesystem::path> paths,
-                                          std::optional<Duration> period) {
-  return std::make_unique<PictureSource>(std::move(paths), period);
+                                          std::optional<Duration> period,
+                                          const RecordingOptions& options) {
+  return std::make_unique<PictureSource>(std::move(paths), period, options);
 }
 
 }  // namespace pleinair::hal::recording

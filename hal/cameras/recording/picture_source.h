@@ -12,6 +12,10 @@ namespace pleinair::hal::recording {
 /// Whether the name has a picture file's extension (.png, .JPG …).
 bool isPictureName(const std::filesystem::path& path);
 
+/// The names of the other files in a folder of pictures, in natural order, without hidden ones.
+/// Empty for anything else than a folder.
+std::vector<std::string> otherFilesIn(const std::filesystem::path& folder);
+
 /// Natural order: runs of digits compare as numbers ("a2" before "a10").
 bool naturallyLess(std::string_view a, std::string_view b);
 

@@ -20,7 +20,10 @@ using recording::Timeline;
 class RecordingCamera final : public Camera {
  public:
   RecordingCamera(std::filesystem::path path, Clock& clock, RecordingOptions options)
-      : path_(std::move(path)), clock_(clock), options_(options), timeline_(Duration{}) {}
+      : path_(std::move(path)),
+        clock_(clock),
+        options_(std::move(options)),
+        timeline_(Duration{}) {}
 
   CameraIdentity identity() const override {
     return {
@@ -60,7 +63,7 @@ Error RecordingCamera::named(Error error) const {
 }
 
 Result<void> RecordingCamera::open() {
-  auto source = recording::openSource(path_, options_.picturePeriod);
+  auto source = recording::openSource(path_, options_);
   if (!source) return tl::unexpected(source.error());
   source_ = *std::move(source);
   anyFrameInThisPass_ = false;
@@ -78,6 +81,10 @@ Result<StreamFormat> RecordingCamera::start(const StreamRequest&) {
     Error error{.kind = ErrorKind::kInvalidInput,
                 .problem = "has no valid frame",
                 .remedy = "give another recording"};
+    if (options_.from > Duration::zero() || options_.to) {
+      error.problem = "has no valid frame in the part that was asked for";
+      error.remedy = "give another --from and --to: its time begins at 0";
+    }
     if (const auto* end = std::get_if<EndOfStream>(&*ending_); end && end->truncated) {
       error = *end->truncated;
     } else if (const auto* failure = std::get_if<Error>(&*ending_)) {
@@ -150,7 +157,7 @@ NextFrame RecordingCamera::next(TimePoint deadline) {
 
 std::unique_ptr<Camera> openRecording(std::filesystem::path path, Clock& clock,
                                       RecordingOptions options) {
-  return std::make_unique<RecordingCamera>(std::move(path), clock, options);
+  return std::make_unique<RecordingCamera>(std::move(path), clock, std::move(options));
 }
 
 }  // namespace pleinair::hal

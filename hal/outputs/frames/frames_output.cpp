@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cerrno>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -31,10 +32,49 @@ class PictureSink {
   virtual Result<void> finish() = 0;
 };
 
+/// Keeps other writers away from the names of a pattern as long as it lives, by a partial file of
+/// the pattern's name: "out/.%06d.png.part". What a killed writer left of these names is removed.
+class PatternLock {
+ public:
+  static Result<PatternLock> take(const std::filesystem::path& pattern, const NumberedPath& names,
+                                  FileSystem& files) {
+    std::filesystem::path path = pattern;
+    path.replace_filename("." + pattern.filename().string() + ".part");
+    const int fd = files.create(path);
+    if (fd == -EEXIST) {
+      return tl::unexpected(Error{.kind = ErrorKind::kBusy,
+                                  .subject = pattern.string(),
+                                  .problem = "another run writes pictures of these names",
+                                  .remedy = "wait for its end, or give another folder"});
+    }
+    if (fd < 0) return tl::unexpected(errnoError(path.string(), "cannot write", -fd));
+    const std::filesystem::path folder = names.folder().empty() ? "." : names.folder();
+    for (const std::filesystem::path& part : stalePartsIn(folder)) {
+      if (names.numberOf(finalNameOf(part))) files.unlink(part);
+    }
+    return PatternLock(std::move(path), FileDescriptor(fd, files), files);
+  }
+  PatternLock(PatternLock&&) noexcept = default;
+  PatternLock& operator=(PatternLock&&) = delete;
+  PatternLock(const PatternLock&) = delete;
+  PatternLock& operator=(const PatternLock&) = delete;
+  ~PatternLock() {
+    if (file_) files_->unlink(path_);  // before it is closed, which unlocks it
+  }
+
+ private:
+  PatternLock(std::filesystem::path path, FileDescriptor file, FileSystem& files)
+      : path_(std::move(path)), files_(&files), file_(std::move(file)) {}
+
+  std::filesystem::path path_;
+  FileSystem* files_;
+  FileDescriptor file_;
+};
+
 class NumberedPictures final : public PictureSink {
  public:
-  NumberedPictures(NumberedPath names, FileSystem& files)
-      : names_(std::move(names)), files_(files) {}
+  NumberedPictures(NumberedPath names, PatternLock lock, FileSystem& files)
+      : names_(std::move(names)), lock_(std::move(lock)), files_(files) {}
 
   Result<void> write(std::span<const std::uint8_t> png) override {
     Result<PendingFile> file = PendingFile::create(names_.at(next_), files_);
@@ -47,6 +87,7 @@ class NumberedPictures final : public PictureSink {
 
  private:
   NumberedPath names_;
+  PatternLock lock_;
   FileSystem& files_;
   std::uint64_t next_ = 0;
 };
@@ -102,7 +143,9 @@ SinkResult numbered(const std::filesystem::path& pattern, FileSystem& files) {
                                 .problem = "no such folder",
                                 .remedy = "create it first"});
   }
-  return std::make_unique<NumberedPictures>(*names, files);
+  Result<PatternLock> lock = PatternLock::take(pattern, *names, files);
+  if (!lock) return tl::unexpected(lock.error());
+  return std::make_unique<NumberedPictures>(*names, *std::move(lock), files);
 }
 
 SinkResult openSink(const std::filesystem::path& path, FileSystem& files) {

@@ -13,8 +13,9 @@ namespace pleinair::hal {
 /// - a pattern such as "out/%04d.png" (see NumberedPath), numbered from 0,
 /// - a folder, made if it is missing (its parent must exist), for "%06d.png" in it,
 /// - one .png for one picture, published in finish(); a second picture is an error.
-/// Numbered pictures are published whole, each as it comes. Errors of start() also:
-/// kInvalidArgument (the pattern is malformed, or does not end in .png).
+/// Numbered pictures are published whole, each as it comes; start() removes partial ones that a
+/// killed run left. Errors of start() also: kInvalidArgument (the pattern is malformed, or does not
+/// end in .png), kBusy (another output, of any process, writes to the pattern).
 std::unique_ptr<MemoryOutput> openFramesOutput(std::filesystem::path path,
                                                FileSystem& files = systemFiles());
 

@@ -48,7 +48,7 @@ libav::CodecContext configureX264(const AVCodec& codec, const MovieFormat& forma
   // Half of the preset's: size and quality stay (to 0.01 % on a painted movie), 15 MB less at
   // 1280×720.
   av_opt_set_int(encoder->priv_data, "rc-lookahead", 5, 0);
-  av_opt_set_double(encoder->priv_data, "crf", 18, 0);
+  av_opt_set_double(encoder->priv_data, "crf", format.crf, 0);
   return encoder;
 }
 
@@ -69,8 +69,13 @@ void copyPadded(const ImageView& picture, AVFrame& frame) {
 
 class H264Writer final : public MovieWriter {
  public:
-  H264Writer(Container container, std::string subject, const MovieFormat& format, PendingFile& file)
-      : subject_(std::move(subject)), format_(format), container_(container), io_(file) {}
+  H264Writer(Container container, std::string subject, const MovieFormat& format, PendingFile& file,
+             std::unique_ptr<SoundTrack> sound)
+      : subject_(std::move(subject)),
+        format_(format),
+        container_(container),
+        io_(file),
+        sound_(std::move(sound)) {}
 
   Result<void> open();
   Result<void> write(const ImageView& picture, Duration time) override;
@@ -79,7 +84,10 @@ class H264Writer final : public MovieWriter {
  private:
   Result<void> openEncoder();
   Result<void> openMuxer();
+  Result<void> addSound();
   Result<void> drainEncoder();
+  /// Writes the sound that begins before `end`, a time in kMicroseconds.
+  Result<void> writeSound(std::int64_t end);
   /// libav's status, unless the file failed beneath it.
   Result<void> check(int status, const char* operation) const;
 
@@ -91,7 +99,10 @@ class H264Writer final : public MovieWriter {
   libav::CodecContext encoder_;
   libav::Packet packet_ = libav::makePacket();
   AVStream* stream_ = nullptr;  ///< the muxer's
-  std::int64_t lastTime_ = -1;  ///< in kMicroseconds
+  std::unique_ptr<SoundTrack> sound_;
+  AVStream* soundStream_ = nullptr;  ///< the muxer's
+  std::int64_t lastSoundTime_ = -1;  ///< in the muxer's time base
+  std::int64_t lastTime_ = -1;       ///< in kMicroseconds
 };
 
 Result<void> H264Writer::check(int status, const char* operation) const {
@@ -134,6 +145,7 @@ Result<void> H264Writer::openMuxer() {
   if (stream_ == nullptr) throw std::bad_alloc();
   status = avcodec_parameters_from_context(stream_->codecpar, encoder_.get());
   stream_->time_base = kMicroseconds;
+  if (Result<void> added = addSound(); !added) return added;
   AVDictionary* raw = nullptr;
   if (isMp4) {
     av_dict_set(&raw, "movflags", "frag_keyframe+empty_moov+default_base_moof", 0);
@@ -147,6 +159,34 @@ Result<void> H264Writer::openMuxer() {
   const AVRational expected = isMp4 ? kMicroseconds : kMilliseconds;
   if (status >= 0 && av_cmp_q(stream_->time_base, expected) != 0) status = AVERROR_BUG;
   return check(status, "cannot write the header");
+}
+
+Result<void> H264Writer::addSound() {
+  if (sound_ == nullptr) return {};
+  soundStream_ = avformat_new_stream(muxer_.get(), nullptr);
+  if (soundStream_ == nullptr) throw std::bad_alloc();
+  const int status = avcodec_parameters_copy(soundStream_->codecpar, &sound_->coding());
+  soundStream_->codecpar->codec_tag = 0;  // the containers have names of their own
+  soundStream_->time_base = {1, std::max(sound_->coding().sample_rate, 1)};
+  return check(status, "cannot add the sound");
+}
+
+Result<void> H264Writer::writeSound(std::int64_t end) {
+  if (sound_ == nullptr) return {};
+  const Duration until(av_rescale_q(end, kMicroseconds, {1, 1'000'000'000}));
+  while (AVPacket* packet = sound_->nextBefore(until)) {
+    // To the Matroska muxer, microseconds are given for milliseconds.
+    const AVRational base = container_ == Container::kMkv ? kMicroseconds : soundStream_->time_base;
+    av_packet_rescale_ts(packet, sound_->timeBase(), base);
+    packet->pts = std::max(packet->pts, lastSoundTime_ + 1);
+    packet->dts = packet->pts;
+    lastSoundTime_ = packet->pts;
+    packet->stream_index = soundStream_->index;
+    packet->pos = -1;
+    const int status = av_write_frame(muxer_.get(), packet);
+    if (Result<void> written = check(status, "cannot write"); !written) return written;
+  }
+  return {};
 }
 
 Result<void> H264Writer::write(const ImageView& picture, Duration time) {
@@ -169,6 +209,7 @@ Result<void> H264Writer::drainEncoder() {
     int status = avcodec_receive_packet(encoder_.get(), packet_.get());
     if (status == AVERROR(EAGAIN) || status == AVERROR_EOF) return {};
     if (Result<void> encoded = check(status, "cannot encode"); !encoded) return encoded;
+    if (Result<void> written = writeSound(packet_->pts); !written) return written;
     packet_->stream_index = stream_->index;
     packet_->duration =
         av_rescale_q(format_.framePeriod.count(), {1, 1'000'000'000}, kMicroseconds);
@@ -182,6 +223,10 @@ Result<void> H264Writer::finish() {
   const int status = avcodec_send_frame(encoder_.get(), nullptr);
   if (Result<void> sent = check(status, "cannot encode"); !sent) return sent;
   if (Result<void> drained = drainEncoder(); !drained) return drained;
+  // The sound ends with the last image.
+  const std::int64_t period =
+      av_rescale_q(format_.framePeriod.count(), {1, 1'000'000'000}, kMicroseconds);
+  if (Result<void> written = writeSound(lastTime_ + period); !written) return written;
   const int ended = av_write_trailer(muxer_.get());
   avio_flush(io_.context());
   return check(ended, "cannot write");
@@ -189,10 +234,17 @@ Result<void> H264Writer::finish() {
 
 }  // namespace
 
+bool canHold(Container container, AVCodecID coding) {
+  const char* const name = container == Container::kMp4 ? "mp4" : "matroska";
+  const AVOutputFormat* const format = av_guess_format(name, nullptr, nullptr);
+  return format != nullptr && avformat_query_codec(format, coding, FF_COMPLIANCE_NORMAL) == 1;
+}
+
 Result<std::unique_ptr<MovieWriter>> openH264Writer(Container container, const MovieFormat& format,
-                                                    const std::string& subject, PendingFile& file) {
+                                                    const std::string& subject, PendingFile& file,
+                                                    std::unique_ptr<SoundTrack> sound) {
   libav::redirectLog();
-  auto writer = std::make_unique<H264Writer>(container, subject, format, file);
+  auto writer = std::make_unique<H264Writer>(container, subject, format, file, std::move(sound));
   if (Result<void> opened = writer->open(); !opened) return tl::unexpected(opened.error());
   return writer;
 }

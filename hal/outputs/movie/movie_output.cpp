@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cerrno>
 #include <chrono>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
+
+#include <unistd.h>
 
 #include "hal/outputs/movie/movie_writer.h"
 
@@ -28,8 +33,8 @@ std::optional<MovieKind> kindOf(const std::filesystem::path& path) {
 
 class MovieOutput final : public MemoryOutput {
  public:
-  MovieOutput(std::filesystem::path path, FileSystem& files)
-      : path_(std::move(path)), files_(files) {}
+  MovieOutput(std::filesystem::path path, MovieOptions options, FileSystem& files)
+      : path_(std::move(path)), options_(std::move(options)), files_(files) {}
 
   OutputIdentity identity() const override { return {.backend = "movie", .id = path_.string()}; }
 
@@ -49,13 +54,34 @@ class MovieOutput final : public MemoryOutput {
 
  private:
   Result<std::unique_ptr<movie::MovieWriter>> openWriter(MovieKind kind);
+  Result<std::unique_ptr<movie::SoundTrack>> openSound(std::optional<movie::Container> container);
 
   std::filesystem::path path_;
+  MovieOptions options_;
   FileSystem& files_;
   movie::MovieFormat format_{};
   std::optional<PendingFile> file_;
   std::unique_ptr<movie::MovieWriter> writer_;  ///< writes to file_
 };
+
+Result<movie::MovieFormat> formatFor(const OutputRequest& request, const std::string& subject) {
+  if (!isAcceptedSize(request.size)) {
+    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
+                                .subject = subject,
+                                .problem = "cannot take this size",
+                                .remedy = "use 1 to 8192 px a side and at most 64 Mpx"});
+  }
+  constexpr int kFirstHdLine = 720;
+  constexpr Duration kDefaultPeriod = Duration(std::chrono::seconds(1)) / 30;
+  const ColorMatrix matrix =
+      request.size.height >= kFirstHdLine ? ColorMatrix::kBt709 : ColorMatrix::kBt601;
+  const Duration period = request.framePeriod.value_or(kDefaultPeriod);
+  return movie::MovieFormat{
+      .frame = {.pixelFormat = PixelFormat::kI420,
+                .size = request.size,
+                .encoding = {.matrix = matrix, .range = ColorRange::kLimited}},
+      .framePeriod = period > Duration::zero() ? period : kDefaultPeriod};
+}
 
 Result<OutputFormat> MovieOutput::start(const OutputRequest& request) {
   assert(!file_);
@@ -66,21 +92,10 @@ Result<OutputFormat> MovieOutput::start(const OutputRequest& request) {
                                 .problem = "is not the name of a movie that can be written",
                                 .remedy = "end it in .mp4, .mkv or .y4m"});
   }
-  if (!isAcceptedSize(request.size)) {
-    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
-                                .subject = path_.string(),
-                                .problem = "cannot take this size",
-                                .remedy = "use 1 to 8192 px a side and at most 64 Mpx"});
-  }
-  constexpr int kFirstHdLine = 720;
-  constexpr Duration kDefaultPeriod = Duration(std::chrono::seconds(1)) / 30;
-  const ColorMatrix matrix =
-      request.size.height >= kFirstHdLine ? ColorMatrix::kBt709 : ColorMatrix::kBt601;
-  const Duration period = request.framePeriod.value_or(kDefaultPeriod);
-  format_ = {.frame = {.pixelFormat = PixelFormat::kI420,
-                       .size = request.size,
-                       .encoding = {.matrix = matrix, .range = ColorRange::kLimited}},
-             .framePeriod = period > Duration::zero() ? period : kDefaultPeriod};
+  const auto format = formatFor(request, path_.string());
+  if (!format) return tl::unexpected(format.error());
+  format_ = *format;
+  format_.crf = options_.crf;
   Result<PendingFile> file = PendingFile::create(path_, files_);
   if (!file) return tl::unexpected(file.error());
   file_.emplace(*std::move(file));
@@ -91,15 +106,79 @@ Result<OutputFormat> MovieOutput::start(const OutputRequest& request) {
 }
 
 Result<std::unique_ptr<movie::MovieWriter>> MovieOutput::openWriter(MovieKind kind) {
-  if (kind == MovieKind::kY4m) return movie::openY4mWriter(format_, *file_);
+  if (kind == MovieKind::kY4m) {
+    if (auto sound = openSound(std::nullopt); !sound) return tl::unexpected(sound.error());
+    return movie::openY4mWriter(
+        format_, [this](std::span<const std::uint8_t> bytes) { return file_->write(bytes); });
+  }
   const auto container = kind == MovieKind::kMp4 ? movie::Container::kMp4 : movie::Container::kMkv;
-  return movie::openH264Writer(container, format_, path_.string(), *file_);
+  auto sound = openSound(container);
+  if (!sound) return tl::unexpected(sound.error());
+  return movie::openH264Writer(container, format_, path_.string(), *file_, *std::move(sound));
 }
+
+/// Null where there is none, or where the file cannot hold it, of which a notice tells.
+Result<std::unique_ptr<movie::SoundTrack>> MovieOutput::openSound(
+    std::optional<movie::Container> container) {
+  if (!options_.soundOf) return nullptr;
+  auto sound = movie::SoundTrack::open(*options_.soundOf, options_.soundFrom);
+  if (!sound || *sound == nullptr) return sound;
+  const AVCodecID coding = (*sound)->coding().codec_id;
+  if (container && movie::canHold(*container, coding)) return sound;
+  if (options_.onNotice) {
+    options_.onNotice(path_.string() + ": holds no sound coded as " + avcodec_get_name(coding) +
+                      ", which is left out; an .mkv would hold it");
+  }
+  return nullptr;
+}
+
+/// Y4M to standard output.
+class MovieStream final : public MemoryOutput {
+ public:
+  OutputIdentity identity() const override { return {.backend = "movie", .id = "-"}; }
+
+  Result<OutputFormat> start(const OutputRequest& request) override {
+    const auto format = formatFor(request, kStandardOutput);
+    if (!format) return tl::unexpected(format.error());
+    auto writer = movie::openY4mWriter(*format, &MovieStream::writeAll);
+    if (!writer) return tl::unexpected(writer.error());
+    writer_ = *std::move(writer);
+    return OutputFormat{.frame = format->frame, .refresh = std::nullopt};
+  }
+  Result<void> write(const ImageView& picture, Duration time) override {
+    return writer_->write(picture, time);
+  }
+  Result<void> finish() override { return writer_->finish(); }
+
+ private:
+  static constexpr const char* kStandardOutput = "standard output";
+
+  static Result<void> writeAll(std::span<const std::uint8_t> bytes) {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(STDOUT_FILENO, bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) return tl::unexpected(errnoError(kStandardOutput, "cannot write", errno));
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    return {};
+  }
+
+  std::unique_ptr<movie::MovieWriter> writer_;
+};
 
 }  // namespace
 
+std::unique_ptr<MemoryOutput> openMovieStream() {
+  return std::make_unique<MovieStream>();
+}
+
 std::unique_ptr<MemoryOutput> openMovieOutput(std::filesystem::path path, FileSystem& files) {
-  return std::make_unique<MovieOutput>(std::move(path), files);
+  return openMovieOutput(std::move(path), {}, files);
+}
+
+std::unique_ptr<MemoryOutput> openMovieOutput(std::filesystem::path path, MovieOptions options,
+                                              FileSystem& files) {
+  return std::make_unique<MovieOutput>(std::move(path), std::move(options), files);
 }
 
 OutputKind movieKind() {

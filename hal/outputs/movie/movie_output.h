@@ -1,7 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "hal/output.h"
 #include "hal/output_kind.h"
@@ -22,6 +25,27 @@ namespace pleinair::hal {
 /// x264. Errors of start() also: kInvalidArgument (unknown ending), kUnsupported (no x264).
 std::unique_ptr<MemoryOutput> openMovieOutput(std::filesystem::path path,
                                               FileSystem& files = systemFiles());
+
+/// x264's constant rate factor: 0 … 51, less is better and larger. 18 shows no loss to the eye.
+inline constexpr double kDefaultCrf = 18;
+
+struct MovieOptions {
+  double crf = kDefaultCrf;  ///< of .mp4 and .mkv
+  /// A recording whose sound is kept, as it is coded: its time 0 is the first frame at or after
+  /// `soundFrom`. Nothing where it has none.
+  std::optional<std::filesystem::path> soundOf = std::nullopt;
+  Duration soundFrom{0};
+  /// Called in start() with a line where the recording has sound that the file cannot hold.
+  std::function<void(const std::string&)> onNotice = nullptr;
+};
+
+/// The same with options. Errors of start() also: those of reading the recording of the sound.
+std::unique_ptr<MemoryOutput> openMovieOutput(std::filesystem::path path, MovieOptions options,
+                                              FileSystem& files = systemFiles());
+
+/// Y4M on standard output, frame by frame, for a program that reads it from a pipe: as .y4m above.
+/// Errors of write() also: kIo (the reader is gone). Nothing else may write to standard output.
+std::unique_ptr<MemoryOutput> openMovieStream();
 
 /// Whether the ending is one of the above (".MP4" as well).
 bool isMovieName(const std::filesystem::path& path);

@@ -1,11 +1,16 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "hal/error.h"
 #include "hal/image.h"
 #include "hal/output.h"
+#include "hal/outputs/movie/movie_output.h"
+#include "hal/outputs/movie/sound_track.h"
 #include "hal/pending_file.h"
 
 namespace pleinair::hal::movie {
@@ -24,11 +29,18 @@ enum class Container { kMp4, kMkv };
 struct MovieFormat {
   FrameFormat frame;     ///< I420
   Duration framePeriod;  ///< nominal
+  double crf = kDefaultCrf;
 };
 
-/// `file` must outlive the writer.
+/// `sound` is stored as it is, in step with the images, and ends with them; null for a silent
+/// movie. Precondition: the container can hold it (canHold()). `file` must outlive the writer.
 Result<std::unique_ptr<MovieWriter>> openH264Writer(Container container, const MovieFormat& format,
-                                                    const std::string& subject, PendingFile& file);
-Result<std::unique_ptr<MovieWriter>> openY4mWriter(const MovieFormat& format, PendingFile& file);
+                                                    const std::string& subject, PendingFile& file,
+                                                    std::unique_ptr<SoundTrack> sound);
+/// Whether a container can hold a coding of sound without a change.
+bool canHold(Container container, AVCodecID coding);
+/// Takes the bytes of a file in their order.
+using ByteSink = std::function<Result<void>(std::span<const std::uint8_t>)>;
+Result<std::unique_ptr<MovieWriter>> openY4mWriter(const MovieFormat& format, ByteSink sink);
 
 }  // namespace pleinair::hal::movie

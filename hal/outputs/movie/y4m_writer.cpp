@@ -12,7 +12,7 @@ namespace {
 
 class Y4mWriter final : public MovieWriter {
  public:
-  explicit Y4mWriter(PendingFile& file) : file_(file) {}
+  explicit Y4mWriter(ByteSink sink) : sink_(std::move(sink)) {}
 
   Result<void> write(const ImageView& picture, Duration) override {
     static constexpr std::string_view kFrame = "FRAME\n";
@@ -24,13 +24,13 @@ class Y4mWriter final : public MovieWriter {
         buffer_.insert(buffer_.end(), row.begin(), row.end());
       }
     }
-    return file_.write(buffer_);
+    return sink_(buffer_);
   }
 
   Result<void> finish() override { return {}; }
 
  private:
-  PendingFile& file_;
+  ByteSink sink_;
   std::vector<std::uint8_t> buffer_;
 };
 
@@ -49,14 +49,14 @@ std::string rateText(Duration period) {
 
 }  // namespace
 
-Result<std::unique_ptr<MovieWriter>> openY4mWriter(const MovieFormat& format, PendingFile& file) {
+Result<std::unique_ptr<MovieWriter>> openY4mWriter(const MovieFormat& format, ByteSink sink) {
   const std::string header = "YUV4MPEG2 W" + std::to_string(format.frame.size.width) + " H" +
                              std::to_string(format.frame.size.height) + " F" +
                              rateText(format.framePeriod) +
                              " Ip A1:1 C420mpeg2 XYSCSS=420MPEG2 XCOLORRANGE=LIMITED\n";
   const std::vector<std::uint8_t> bytes(header.begin(), header.end());
-  if (Result<void> written = file.write(bytes); !written) return tl::unexpected(written.error());
-  return std::make_unique<Y4mWriter>(file);
+  if (Result<void> written = sink(bytes); !written) return tl::unexpected(written.error());
+  return std::make_unique<Y4mWriter>(std::move(sink));
 }
 
 }  // namespace pleinair::hal::movie

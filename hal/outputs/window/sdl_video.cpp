@@ -66,6 +66,41 @@ bool isLost() {
   return lost;
 }
 
+bool hasWindowManager(SDL_Window* window) {
+#ifdef SDL_VIDEO_DRIVER_X11
+  SDL_SysWMinfo info;
+  SDL_VERSION(&info.version);
+  if (SDL_GetWindowWMInfo(window, &info) != SDL_TRUE || info.subsystem != SDL_SYSWM_X11)
+    return true;
+  Display* const display = info.info.x11.display;
+  using Property = int (*)(Display*, ::Window, Atom, long, long, Bool, Atom, Atom*, int*,
+                           unsigned long*, unsigned long*, unsigned char**);
+  const auto atomOf = xlib<Atom (*)(Display*, const char*, Bool)>("XInternAtom");
+  const auto rootOf = xlib<::Window (*)(Display*)>("XDefaultRootWindow");
+  const auto propertyOf = xlib<Property>("XGetWindowProperty");
+  const auto release = xlib<int (*)(void*)>("XFree");
+  if (atomOf == nullptr || rootOf == nullptr || propertyOf == nullptr || release == nullptr) {
+    return true;
+  }
+  // Every window manager of the last twenty years sets it (EWMH 1.3, "Root Window Properties").
+  const Atom atom = atomOf(display, "_NET_SUPPORTING_WM_CHECK", True);
+  if (atom == None) return false;
+  Atom type = None;
+  int bits = 0;
+  unsigned long count = 0;
+  unsigned long left = 0;
+  unsigned char* value = nullptr;
+  constexpr Atom kAnyType = 0;
+  const int status = propertyOf(display, rootOf(display), atom, 0, 1, False, kAnyType, &type, &bits,
+                                &count, &left, &value);
+  if (value != nullptr) release(value);
+  return status == Success && count > 0;
+#else
+  static_cast<void>(window);
+  return true;
+#endif
+}
+
 }  // namespace pleinair::hal::window::display_connection
 
 namespace pleinair::hal::window {

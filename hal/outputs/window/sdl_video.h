@@ -46,6 +46,8 @@ namespace display_connection {
 
 /// Starts with the opening of a window. Idempotent.
 void watch(SDL_Window* window);
+/// False on an X server where nobody could make the window fill the screen.
+bool hasWindowManager(SDL_Window* window);
 /// Ends the watch, before SDL closes the connection.
 void forget();
 /// Polls the connection at each call.

@@ -84,6 +84,8 @@ class SdlWindow final : public Window {
  private:
   Result<void> open(FrameSize picture);
   Result<void> draw();
+  /// Fills the screen without a window manager, or goes back to the place before.
+  void fillScreen(bool on);
   /// The size of the drawable, which on dense screens has more pixels than the window has units.
   FrameSize pixelSize() const;
   double pixelScale() const;
@@ -101,6 +103,7 @@ class SdlWindow final : public Window {
   TextureHandle texture_;
   window::Caption caption_;
   bool hasPicture_ = false;
+  SDL_Rect placeBefore_{};  ///< before the window filled the screen
   std::vector<WindowEvent> events_;
 };
 
@@ -274,8 +277,23 @@ void SdlWindow::setTitle(const std::string& title) {
 void SdlWindow::setFullScreen(bool on) {
   assert(isStarted());
   if (display_connection::isLost()) return;
-  SDL_SetWindowFullscreen(window_.get(), on ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+  if (display_connection::hasWindowManager(window_.get())) {
+    SDL_SetWindowFullscreen(window_.get(), on ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+  } else {
+    fillScreen(on);  // SDL would believe that it did, and show a part of the picture
+  }
   SDL_ShowCursor(on ? SDL_DISABLE : SDL_ENABLE);
+}
+
+void SdlWindow::fillScreen(bool on) {
+  if (on) {
+    SDL_GetWindowPosition(window_.get(), &placeBefore_.x, &placeBefore_.y);
+    SDL_GetWindowSize(window_.get(), &placeBefore_.w, &placeBefore_.h);
+  }
+  SDL_Rect place = placeBefore_;
+  if (on && SDL_GetDisplayBounds(SDL_GetWindowDisplayIndex(window_.get()), &place) != 0) return;
+  SDL_SetWindowPosition(window_.get(), place.x, place.y);
+  SDL_SetWindowSize(window_.get(), place.w, place.h);
 }
 
 }  // namespace

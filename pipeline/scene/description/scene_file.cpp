@@ -154,10 +154,11 @@ SceneModel readModel(const TomlTable& table, const std::filesystem::path& direct
   return model;
 }
 
-/// Names the parts of a model's file that are not shown, and a model that is far larger than
-/// anything with tags.
+/// Names the parts of a model's file that are not shown, and a model that is far larger or smaller
+/// than anything with tags.
 std::vector<std::string> noticesOf(const SceneModel& model) {
   constexpr double kHugeMetres = 2.0;
+  constexpr double kTinyMetres = 0.005;
   std::vector<std::string> notices;
   const auto* file = std::get_if<FileSource>(&model.source);
   const std::string name = file != nullptr ? file->path.string() : model.name;
@@ -166,7 +167,7 @@ std::vector<std::string> noticesOf(const SceneModel& model) {
   }
   const double scale = glm::length(glm::dvec3(model.attachFromModel[0]));
   const double width = 2.0 * scale * boundingSphere(*model.model).radiusMetres;
-  if (width > kHugeMetres) {
+  if (width > kHugeMetres || (width > 0.0 && width < kTinyMetres)) {
     notices.push_back(
         fmt::format("{}: is {:.3g} m wide here{}; a scale of {:.2g} makes it 0.2 m", name, width,
                     file != nullptr ? "" : " (its lengths are in metres)", 0.2 * scale / width));

@@ -111,6 +111,12 @@ void ArFrameRenderer::warmUp(hal::FrameSize size) {
     const gpu::Texture picture(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear);
     geometry_.beginFrame();
     for (std::size_t i = 0; i < scene_.models.size(); ++i) {
+      // Equal models use the same programs in the same states.
+      const auto isEqual = [&](std::size_t earlier) {
+        return scene_.models[earlier].model == scene_.models[i].model &&
+               scene_.models[earlier].isOccluder == scene_.models[i].isOccluder;
+      };
+      if (std::ranges::any_of(visible_, isEqual)) continue;
       geometry_.pose(i, {}, {});
       visible_.push_back(i);
     }

@@ -1,11 +1,15 @@
 #include "firmware_app/command_line.h"
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "firmware_app/cli/option_values.h"
 
 namespace pleinair::app {
 namespace {
@@ -39,9 +43,8 @@ void expectRefused(const std::vector<const char*>& arguments, const std::string&
 
 TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   expectRefused({},
-                "one of run, render, record, calibrate, measure, config, devices, doctor, thesis "
-                "and styles is "
-                "required");
+                "one of run, render, record, looks, scene, calibrate, measure, config, devices, "
+                "doctor, warm-up, thesis and styles is required");
   expectRefused({"paint"}, "paint");
   expectRefused({"--verbose"}, "--verbose");
   expectRefused({"styles", "styles"}, "styles");
@@ -54,6 +57,17 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow) {
         "synthetic, synthetic:walkaround, synthetic:pan, synthetic:dolly, synthetic:roll, "
         "synthetic:still, synthetic:occluder, synthetic:cut, synthetic:visitors, synthetic:lights, "
         "synthetic:hand");
+  }
+}
+
+TEST(CommandLine, ReadsTimesOfRecordings) {
+  using std::chrono_literals::operator""ms;
+  EXPECT_EQ(timeOf("--at", "12.5"), 12500ms);
+  EXPECT_EQ(timeOf("--at", "1:02.5"), 62500ms);
+  EXPECT_EQ(timeOf("--at", "1:00:02"), 3602000ms);
+  EXPECT_EQ(timeOf("--at", "90:00"), 5400000ms);
+  for (const char* wrong : {"", "x", "-1", "1:60", "1.5:02", "1:2:3:4", "1:", ":5", "12,5"}) {
+    EXPECT_THROW(timeOf("--at", wrong), CLI::ValidationError) << wrong;
   }
 }
 
@@ -135,7 +149,6 @@ TEST(CommandLine, RefusesNamesThatWouldNotHoldWhatIsWritten) {
         "--contact-sheet: found \"" + std::string(name) + "\", allowed: a name that ends in .png");
   }
   const std::string what = ": found \"-\", allowed: the name of a file;";
-  expectRefused({"render", "--input", "a.mp4", "--output", "-"}, "--output" + what);
   expectRefused({"record", "--output", "-"}, "--output" + what);
   expectRefused({"render", "--input", "a.mp4", "--output", "b.mp4", "--poses", "-"},
                 "--poses" + what);

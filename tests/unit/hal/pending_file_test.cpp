@@ -37,6 +37,26 @@ TEST(PendingFile, StandsUnderItsNameOnlyWhenPublished) {
   EXPECT_EQ(folder.entryCount(), 1u);
 }
 
+TEST(PendingFile, FindsWhatKilledProcessesLeft) {
+  const support::TemporaryFolder folder;
+  for (const char* name : {".a.mp4.part", ".b.png.2.part", "c.part", ".part", ".d"}) {
+    std::ofstream(folder.path() / name) << "left";
+  }
+  fs::create_directory(folder.path() / ".e.part");
+  const Result<PendingFile> inUse = PendingFile::create(folder.path() / "f");
+  ASSERT_TRUE(inUse);
+  EXPECT_THAT(stalePartsIn(folder.path()),
+              testing::ElementsAre(folder.path() / ".a.mp4.part", folder.path() / ".b.png.2.part"));
+  EXPECT_TRUE(stalePartsIn(folder.path() / "nowhere").empty());
+}
+
+TEST(PendingFile, NamesWhatAPartWouldHaveBecome) {
+  EXPECT_EQ(finalNameOf(".out.mp4.part"), "out.mp4");
+  EXPECT_EQ(finalNameOf("folder/.out.mp4.12.part"), "out.mp4");
+  EXPECT_EQ(finalNameOf("out.mp4.part"), "");
+  EXPECT_EQ(finalNameOf(".part"), "");
+}
+
 TEST(PendingFile, TwoUnderOneNameDoNotMix) {
   const support::TemporaryFolder folder;
   {
