@@ -234,7 +234,6 @@ TEST_F(WarmUp, LeavesNothingToCompile) {
   ProgramLimits limits;
   limits.time = std::chrono::seconds(280);
   limits.environment = {"MESA_SHADER_CACHE_DIR=" + path("cache")};
-  limits.keepsCompileNotice = true;
   const ProgramRun warm = runProgram({"warm-up", "--style", "watercolor"}, limits);
   ASSERT_EQ(warm.status, 0) << warm.error;
   EXPECT_THAT(warm.out, testing::MatchesRegex("watercolor: [0-9.]+ s\n"));
