@@ -21,6 +21,7 @@
 #include "firmware_app/cli/interrupt.h"
 #include "firmware_app/cli/stale_parts.h"
 #include "firmware_app/cli/standard_streams.h"
+#include "firmware_app/config/camera_selection.h"
 #include "firmware_app/live/frame_log_file.h"
 #include "firmware_app/live/live_controls.h"
 #include "firmware_app/live/live_input.h"
