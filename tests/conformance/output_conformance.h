@@ -175,8 +175,7 @@ TEST_P(OutputConformance, GivesTheSameBytesForTheSamePictures) {
 
 TEST_P(OutputConformance, IsDestroyedInAnyState) {
   make();
-  const std::unique_ptr<MemoryOutput> started = make();
-  startOrFail(*started, {64, 48});
+  startOrFail(*make(), {64, 48});
   const std::unique_ptr<MemoryOutput> written = make();
   const FrameFormat format = startOrFail(*written, {64, 48});
   writeAll(*written, format);
