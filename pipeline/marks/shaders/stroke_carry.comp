@@ -19,7 +19,7 @@ uniform float segment;
 uniform uint slots;
 
 const float kMaxStretch = 1.25;  // in a frame: what moves otherwise is something else
-const float kMaxLength = 1.5;   // of a segment, and the inverse of the least
+const float kMaxLength = 1.5;    // of a segment, and the inverse of the least
 
 // The motion to the pixel at px, if it shows the object.
 bool findMotion(vec2 px, uint object, out vec2 moved) {
@@ -42,8 +42,10 @@ bool follow(vec2 px, uint object, inout vec2 guess) {
   return true;
 }
 
-vec2 limited(vec2 direction) {
+// `was`: what it stays where it has collapsed, as on a triangle that is now seen edge-on.
+vec2 limited(vec2 direction, vec2 was) {
   float squared = dot(direction, direction);
+  if (!(squared > 1e-6)) return was;
   return direction * clamp(1.0, inversesqrt(squared) / kMaxLength, inversesqrt(squared) * kMaxLength);
 }
 
@@ -60,7 +62,7 @@ vec4[2] carriedArm(vec4 was[2], float visible, Anchor anchor, uint object) {
     vec2 now = before[i] + (moved - here) / segment;
     float stretch = length(now) / length(before[i]);
     isKnown = isKnown && stretch < kMaxStretch && stretch > 1.0 / kMaxStretch;
-    before[i] = limited(isKnown ? now : turn * before[i]);
+    before[i] = limited(isKnown ? now : turn * before[i], before[i]);
     from = to;
   }
   return vec4[2](vec4(before[0], before[1]), vec4(before[2], before[3]));

@@ -155,6 +155,13 @@ TEST_F(StrokeCarry, BeyondTheObjectAndWhereItIsHiddenTheStrokeTurnsAsOne) {
   }
 }
 
+TEST_F(StrokeCarry, ATriangleThatHasCollapsedLeavesTheDirection) {
+  Anchor edgeOn = anchorFrom({60.0, 60.0});
+  edgeOn.jacobian = glm::mat2(0.0F);
+  edgeOn.state |= Anchor::kHidden;
+  EXPECT_EQ(carried({edgeOn}, straight({1.0F, 0.0F}))[0].ahead[3], glm::vec2(1.0F, 0.0F));
+}
+
 TEST_F(StrokeCarry, OthersStayAsTheyAre) {
   Anchor born = anchorFrom({60.0, 60.0});
   born.state |= Anchor::kBorn;
