@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include <glm/trigonometric.hpp>
 
@@ -56,10 +55,10 @@ marks::AnchorOptions anchorsOf(const LayerPlan& plan, std::size_t layer) {
 }
 
 int texelsOf(const LayerPlan& plan, std::size_t layer) {
-  // Hairs finer than a pixel would flicker in the light whenever a stroke bends.
-  const double most = 1.5 * widthOf(plan, layer);
-  const auto tooMany = std::ranges::upper_bound(kBrushTexels, most);
-  return tooMany != kBrushTexels.begin() ? *std::prev(tooMany) : kBrushTexels.front();
+  const double wanted = 1.2 * widthOf(plan, layer);
+  const auto* const enough =
+      std::ranges::find_if(kBrushTexels, [&](int each) { return each >= wanted; });
+  return enough != kBrushTexels.end() ? *enough : kBrushTexels.back();
 }
 
 marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, std::size_t layer,

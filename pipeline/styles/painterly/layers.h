@@ -30,7 +30,7 @@ LayerPlan planOf(const PainterlyParameters& p, hal::FrameSize full);
 double widthOf(const LayerPlan& plan, std::size_t layer);
 /// Gives a layer as many anchors as reach the coverage with strokes of full length.
 marks::AnchorOptions anchorsOf(const LayerPlan& plan, std::size_t layer);
-/// Texels across a layer's brush, one of kBrushTexels: at most one and a half for each pixel.
+/// Texels across a layer's brush, one of kBrushTexels: about as many as its strokes have pixels.
 int texelsOf(const LayerPlan& plan, std::size_t layer);
 
 /// Coarse strokes are straight and broad and stop late, fine ones bend (thesis §4.4).

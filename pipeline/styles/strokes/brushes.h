@@ -14,7 +14,7 @@ enum class Brush { kRound, kFlat, kDry, kKnife, kMarker, kPencil };
 inline constexpr std::array kBrushes{Brush::kRound, Brush::kFlat,   Brush::kDry,
                                      Brush::kKnife, Brush::kMarker, Brush::kPencil};
 /// The widths, in texels, in which each brush is made.
-inline constexpr std::array kBrushTexels{4, 8, 16, 32, 64};
+inline constexpr std::array kBrushTexels{8, 16, 32, 64};
 
 inline constexpr int kBrushVariants = 4;  ///< of each, below each other, so that no stamp repeats
 
