@@ -7,6 +7,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "firmware_app/cli/interrupt.h"
 #include "firmware_app/config/requested_parts.h"
 #include "firmware_app/live/runtime_rules.h"
 #include "hal/outputs/registry.h"
@@ -79,7 +80,8 @@ void LiveOutputs::reconfigureScreens() {
   for (runtime::OutputStage* each : stages) each->reconfigure(request());
   const hal::TimePoint deadline = job_.clock->now() + kModePatience;
   const auto isDone = [](const runtime::OutputStage* each) { return each->isReconfigured(); };
-  while (!std::ranges::all_of(stages, isDone) && job_.clock->now() < deadline) {
+  while (!std::ranges::all_of(stages, isDone) && job_.clock->now() < deadline &&
+         Interrupt::received() == 0) {
     job_.clock->sleepUntil(job_.clock->now() + kModePollInterval);
   }
 }

@@ -367,6 +367,7 @@ class LivePainting {
       spdlog::error("{} did not end in time and was left behind", fmt::join(stuck, ", "));
       if (status == ExitStatus::kSuccess) status = ExitStatus::kInternal;
     }
+    writeFrameLog();  // it tells of what got stuck
     std::fflush(nullptr);
     std::_Exit(static_cast<int>(status));
   }

@@ -56,14 +56,17 @@ Frame makePicture(AVPixelFormat format, FrameSize size) {
 AVPixelFormat planarLayoutOf(const AVFrame& frame) {
   const AVPixFmtDescriptor& layout = *layoutOf(frame);
   const bool isPlanar = (layout.flags & AV_PIX_FMT_FLAG_PLANAR) != 0 || layout.nb_components == 1;
+  // zimg takes no odd sizes with subsampled colour.
+  const bool isWhole = frame.width % (1 << layout.log2_chroma_w) == 0 &&
+                       frame.height % (1 << layout.log2_chroma_h) == 0;
   const bool isOurs =
-      isPlanar && (layout.flags & AV_PIX_FMT_FLAG_BE) == 0 &&
+      isWhole && isPlanar && (layout.flags & AV_PIX_FMT_FLAG_BE) == 0 &&
       (layout.flags & (AV_PIX_FMT_FLAG_FLOAT | AV_PIX_FMT_FLAG_PAL)) == 0 &&
       layout.comp[0].shift == 0 && layout.comp[0].depth <= 16 &&
       av_pix_fmt_count_planes(static_cast<AVPixelFormat>(frame.format)) == layout.nb_components;
   if (isOurs) return static_cast<AVPixelFormat>(frame.format);
   if (isRgb(layout)) return AV_PIX_FMT_GBRP16LE;
-  const bool isSubsampled = layout.log2_chroma_w == 1 && layout.log2_chroma_h == 1;
+  const bool isSubsampled = isWhole && layout.log2_chroma_w == 1 && layout.log2_chroma_h == 1;
   return isSubsampled ? AV_PIX_FMT_YUV420P16LE : AV_PIX_FMT_YUV444P16LE;
 }
 

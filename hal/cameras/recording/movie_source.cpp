@@ -284,7 +284,7 @@ SourceItem MovieSource::next() {
     } else if (isBefore(*frame, from_)) {
       dropped_ = 0;
       waitingForKey_ = false;
-    } else if (to_ && !isBefore(*frame, to_)) {
+    } else if (to_ && frame->best_effort_timestamp != AV_NOPTS_VALUE && !isBefore(*frame, to_)) {
       return SourceEnd{};
     } else {
       return deliver(std::move(frame));

@@ -205,7 +205,8 @@ class KernelCard final : public Card {
     Vblank last;
     std::uint64_t time = 0;
     if (drmCrtcGetSequence(file_.get(), crtc, &last.sequence, &time) != 0) return std::nullopt;
-    last.time = hasMonotonicTime_ ? TimePoint(std::chrono::nanoseconds(time)) : SteadyClock().now();
+    const bool isTimed = hasMonotonicTime_ && time != 0;  // 0: the driver does not know it
+    last.time = isTimed ? TimePoint(std::chrono::nanoseconds(time)) : SteadyClock().now();
     return last;
   }
 

@@ -234,7 +234,13 @@ Result<void> H264Writer::finish() {
 
 }  // namespace
 
-bool canHold(Container container, AVCodecID coding) {
+bool canHold(Container container, const AVCodecParameters& sound) {
+  const AVCodecID coding = sound.codec_id;
+  if (container == Container::kMp4) {
+    // Their parts of the header are made of packets, which come after it.
+    if (coding == AV_CODEC_ID_AC3 || coding == AV_CODEC_ID_EAC3) return false;
+    if (coding == AV_CODEC_ID_AAC && sound.extradata_size == 0) return false;  // ADTS
+  }
   const char* const name = container == Container::kMp4 ? "mp4" : "matroska";
   const AVOutputFormat* const format = av_guess_format(name, nullptr, nullptr);
   return format != nullptr && avformat_query_codec(format, coding, FF_COMPLIANCE_NORMAL) == 1;

@@ -123,10 +123,11 @@ Result<std::unique_ptr<movie::SoundTrack>> MovieOutput::openSound(
   if (!options_.soundOf) return nullptr;
   auto sound = movie::SoundTrack::open(*options_.soundOf, options_.soundFrom);
   if (!sound || *sound == nullptr) return sound;
-  const AVCodecID coding = (*sound)->coding().codec_id;
+  const AVCodecParameters& coding = (*sound)->coding();
   if (container && movie::canHold(*container, coding)) return sound;
   if (options_.onNotice) {
-    options_.onNotice(path_.string() + ": holds no sound coded as " + avcodec_get_name(coding) +
+    options_.onNotice(path_.string() + ": holds no sound coded as " +
+                      avcodec_get_name(coding.codec_id) +
                       ", which is left out; an .mkv would hold it");
   }
   return nullptr;

@@ -38,7 +38,7 @@ Result<std::unique_ptr<MovieWriter>> openH264Writer(Container container, const M
                                                     const std::string& subject, PendingFile& file,
                                                     std::unique_ptr<SoundTrack> sound);
 /// Whether a container can hold a coding of sound without a change.
-bool canHold(Container container, AVCodecID coding);
+bool canHold(Container container, const AVCodecParameters& sound);
 /// Takes the bytes of a file in their order.
 using ByteSink = std::function<Result<void>(std::span<const std::uint8_t>)>;
 Result<std::unique_ptr<MovieWriter>> openY4mWriter(const MovieFormat& format, ByteSink sink);

@@ -38,8 +38,8 @@ Frame frameOf(const Coding& coding, std::array<double, 3> codes, FrameSize size 
   frame->color_range = AVCOL_RANGE_MPEG;
   if (av_frame_get_buffer(frame.get(), 0) < 0) throw std::bad_alloc();
   for (std::size_t plane = 0; plane < 3; ++plane) {
-    const int rows = plane == 0 ? size.height : size.height / 2;
-    const int columns = plane == 0 ? size.width : size.width / 2;
+    const int rows = plane == 0 ? size.height : (size.height + 1) / 2;
+    const int columns = plane == 0 ? size.width : (size.width + 1) / 2;
     for (int y = 0; y < rows; ++y) {
       auto* const row = reinterpret_cast<std::uint16_t*>(
           frame->data[plane] + std::ptrdiff_t{y} * frame->linesize[plane]);
@@ -146,6 +146,15 @@ TEST(WideColour, TenBitsKeepTheirMean) {
     const auto colour = delivered(frameOf(sdr, {static_cast<double>(code), 512, 512}));
     for (const double each : colour) EXPECT_NEAR(each, expected, 0.12) << code;
   }
+}
+
+TEST(WideColour, OddSizesAreTaken) {
+  Coding sdr;
+  sdr.primaries = AVCOL_PRI_BT709;
+  sdr.transfer = AVCOL_TRC_BT709;
+  sdr.matrix = AVCOL_SPC_BT709;
+  const auto colour = delivered(frameOf(sdr, {502, 512, 512}, {213, 121}));
+  for (const double each : colour) EXPECT_NEAR(each, 127.5, 0.25);
 }
 
 TEST(WideColour, SemiPlanarFramesAreReadAsPlanarOnes) {
