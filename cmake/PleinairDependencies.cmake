@@ -7,16 +7,27 @@ find_package(tl-expected REQUIRED)
 find_package(glm REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
-pkg_check_modules(LIBAV REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil libswscale)
+pkg_check_modules(LIBAV REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil libswresample libswscale)
 # Colours of HDR and wide-gamut films (docs/decisions/0040-film-colours.md).
 pkg_check_modules(ZIMG REQUIRED IMPORTED_TARGET zimg)
+# Pictures in JPEG and TIFF, with a colour profile (docs/decisions/0045-written-formats.md).
+pkg_check_modules(JPEG REQUIRED IMPORTED_TARGET libjpeg)
+pkg_check_modules(LCMS REQUIRED IMPORTED_TARGET lcms2)
+pkg_check_modules(TIFF REQUIRED IMPORTED_TARGET libtiff-4)
+# Digests of records and work instructions.
+pkg_check_modules(NETTLE REQUIRED IMPORTED_TARGET nettle)
+# Records as one file (docs/decisions/0067-record-archive.md).
+pkg_check_modules(LIBARCHIVE REQUIRED IMPORTED_TARGET libarchive)
 pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
 pkg_check_modules(LIBDRM REQUIRED IMPORTED_TARGET libdrm)
 pkg_check_modules(GBM REQUIRED IMPORTED_TARGET gbm)
 pkg_check_modules(GLES REQUIRED IMPORTED_TARGET glesv2)
 pkg_check_modules(PANGOCAIRO REQUIRED IMPORTED_TARGET pangocairo)
+pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo cairo-pdf)
 pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(APRILTAG REQUIRED IMPORTED_TARGET apriltag)
+# STL and OBJ models (docs/decisions/0048-mesh-files.md).
+pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)
 
 # Only the header of tinygltf is used (docs/decisions/0007-tinygltf.md): Debian's library decodes
 # images and opens files by itself, without limits.
@@ -62,6 +73,27 @@ else()
   pleinair_optional("hot-plug by udev" "not in: libudev-dev is not installed")
 endif()
 
+# Sensors whose image processor libcamera drives.
+pkg_check_modules(LIBCAMERA QUIET IMPORTED_TARGET libcamera)
+if(LIBCAMERA_FOUND)
+  pleinair_optional("cameras by libcamera" "in (libcamera ${LIBCAMERA_VERSION})")
+  # Its headers include each other as <libcamera/...>, and are none of ours to warn about.
+  get_target_property(libcamera_includes PkgConfig::LIBCAMERA INTERFACE_INCLUDE_DIRECTORIES)
+  set_target_properties(PkgConfig::LIBCAMERA PROPERTIES
+    INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${libcamera_includes}")
+else()
+  pleinair_optional("cameras by libcamera" "not in: libcamera-dev is not installed")
+endif()
+
+# Machine-vision cameras. aravis-0.8.pc names libusb-1.0, which Debian's package does not depend on.
+pkg_check_modules(ARAVIS QUIET IMPORTED_TARGET aravis-0.8)
+if(ARAVIS_FOUND)
+  pleinair_optional("GigE Vision and USB3 Vision cameras" "in (Aravis ${ARAVIS_VERSION})")
+else()
+  pleinair_optional("GigE Vision and USB3 Vision cameras"
+    "not in: libaravis-dev and libusb-1.0-0-dev are not installed")
+endif()
+
 # Keys on a screen without a desktop.
 pkg_check_modules(LIBEVDEV QUIET IMPORTED_TARGET libevdev)
 if(LIBEVDEV_FOUND)
@@ -92,6 +124,11 @@ if(CCACHE_PROGRAM)
   pleinair_optional("compiler cache" "in (${CCACHE_PROGRAM})")
 else()
   pleinair_optional("compiler cache" "not in: ccache is not installed")
+endif()
+if(MOLD_PROGRAM)
+  pleinair_optional("fast linker" "in (${MOLD_PROGRAM})")
+else()
+  pleinair_optional("fast linker" "not in: mold is not installed")
 endif()
 set(PLEINAIR_BENCHMARKS OFF)
 if(PLEINAIR_TESTS)

@@ -3,33 +3,78 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <ctime>
 #include <functional>
 #include <iostream>
+#include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include "config/suggestion.h"
 #include "firmware_app/cli/exit_status.h"
 #include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/config/renamed.h"
+#include "firmware_app/service_manager/journal_stream.h"
 #include "firmware_app/subcommand_options.h"
 #include "firmware_app/version.h"
 #include "pipeline/gpu/shared_displays.h"
 
 namespace pleinair::app {
 
+namespace {
+
+/// The level as syslog(3) numbers it: "<4>".
+class SyslogLevel final : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm&,
+              spdlog::memory_buf_t& line) override {
+    const std::string_view text = levelOf(message.level);
+    line.append(text.data(), text.data() + text.size());
+  }
+  std::unique_ptr<custom_flag_formatter> clone() const override {
+    return std::make_unique<SyslogLevel>();
+  }
+
+ private:
+  static std::string_view levelOf(spdlog::level::level_enum level) {
+    switch (level) {
+      case spdlog::level::critical:
+        return "<2>";
+      case spdlog::level::err:
+        return "<3>";
+      case spdlog::level::warn:
+        return "<4>";
+      case spdlog::level::info:
+        return "<6>";
+      default:
+        return "<7>";
+    }
+  }
+};
+
+}  // namespace
+
 void logToStandardError() {
   auto logger = std::make_shared<spdlog::logger>("pleinair",
                                                  std::make_shared<spdlog::sinks::stderr_sink_mt>());
-  logger->set_pattern("pleinair: %l: %v");
+  if (isJournalStream(STDERR_FILENO)) {
+    auto formatter = std::make_unique<spdlog::pattern_formatter>();
+    formatter->add_flag<SyslogLevel>('*').set_pattern("%*%v");
+    logger->set_formatter(std::move(formatter));
+  } else {
+    logger->set_pattern("pleinair: %l: %v");
+  }
   spdlog::set_default_logger(std::move(logger));
 }
 
@@ -112,13 +157,15 @@ int parseAndRun(int argc, const char* const* argv) {
   app.require_subcommand(0, 1);  // 0, because with 1 CLI11 would not report a wrong name
   SubcommandOptions options;
   std::function<int()> chosen;
+  options.run.program = kVersion;
   addSubcommands(app, options, chosen);
   try {
     app.parse(argumentsReversed(argc, argv));
     if (!chosen)
       throw CLI::RequiredError(
-          "one of run, render, record, looks, scene, calibrate, measure, config, devices, doctor, "
-          "warm-up, thesis and styles");
+          "one of run, rescue, render, record, looks, scene, tags, procedure, record-check, "
+          "record-export, inputs, calibrate, measure, config, devices, doctor, warm-up, "
+          "thesis and styles");
     return chosen();
   } catch (const CLI::ParseError& error) {
     return reportParseError(app, error);

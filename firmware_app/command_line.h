@@ -2,7 +2,8 @@
 
 namespace pleinair::app {
 
-/// Directs warnings and notes to standard error, one per line: "pleinair: warning: …".
+/// Directs warnings and notes to standard error, one per line: "pleinair: warning: …"; to the
+/// journal with a level: "<4>…".
 void logToStandardError();
 
 /// Reads the command line, runs the subcommand, and returns the exit status: 0; 1 for internal

@@ -5,6 +5,7 @@
 #include <CLI/App.hpp>
 
 #include "firmware_app/commands/commands.h"
+#include "firmware_app/procedure_options.h"
 
 namespace pleinair::app {
 
@@ -17,10 +18,13 @@ struct SubcommandOptions {
   ThesisOptions thesis;
   ConfigOptions config;
   RunOptions run;
+  RescueOptions rescue;
   DevicesOptions devices;
   DoctorOptions doctor;
   LooksOptions looks;
   SceneCheckOptions sceneCheck;
+  TagsOptions tags;
+  ProcedureOptions procedure;
   WarmUpOptions warmUp;
 };
 

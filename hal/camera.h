@@ -3,11 +3,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "hal/captured_frame.h"
 #include "hal/clock.h"
 #include "hal/error.h"
+#include "hal/frame_allocator.h"
 #include "hal/pixel_format.h"
 
 namespace pleinair::hal {
@@ -37,13 +39,30 @@ struct StreamRequest {
   std::optional<PixelFormat> pixelFormat;
   std::optional<Duration> framePeriod;
   CameraControls controls;
+  /// Memory for its frames; null: the device's own. A camera that cannot use it takes its own.
+  std::shared_ptr<FrameAllocator> allocator = nullptr;
 };
+
+/// Who has allocated the memory of frames.
+enum class FrameMemory {
+  kProcessor,  ///< ordinary memory of the program
+  kExported,   ///< the device's, with dma-bufs
+  kLent,       ///< StreamRequest::allocator
+};
+std::string_view toString(FrameMemory memory);
 
 /// The format that a camera delivers, read back after negotiation.
 struct StreamFormat {
   FrameFormat frame;
   std::optional<Duration> framePeriod;      ///< nominal; unset for a single picture, which has none
   std::optional<std::uint64_t> frameCount;  ///< recordings only, if the file states it
+  /// Frames come when a signal from outside asks for them: silence is no fault of the camera.
+  bool isTriggered = false;
+  /// What is likely to spoil the stream and how to fix it, a line for the user; empty: nothing.
+  std::string warning;
+  /// Where its frames lie, but for copies that are made while all buffers are leased.
+  FrameMemory memory = FrameMemory::kProcessor;
+  std::string memoryNote;  ///< the allocator's name, or why it was not used; may be empty
 };
 
 struct CameraIdentity {

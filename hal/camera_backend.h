@@ -28,6 +28,7 @@ struct CameraDescription {
   std::string path;
   std::string node;  ///< "/dev/video0"; empty if it has none
   std::vector<CameraMode> modes;
+  bool areModesKnown = true;     ///< false: the camera tells them only once it is opened
   std::optional<Error> problem;  ///< why it could not be inspected (permissions, busy)
 };
 

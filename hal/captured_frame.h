@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "hal/clock.h"
-#include "hal/image.h"
+#include "hal/frame_image.h"
 
 namespace pleinair::hal {
 
@@ -21,23 +21,38 @@ enum class TimestampSource {
 
 enum class FrameHealth { kValid, kCorrupt, kIncomplete };
 
-/// The dma-buf of one plane, borrowed while the frame's lease is held.
-struct DmaBufPlane {
-  int fd = -1;  ///< −1: none
-  std::size_t offsetBytes = 0;
+/// Packets of a camera's link, where the camera sends its frames in packets over a network.
+struct LinkCounts {
+  std::uint64_t missingPackets = 0;  ///< did not arrive: their frames are incomplete
+  std::uint64_t resentPackets = 0;   ///< did not arrive at first, and were sent again
+  std::uint64_t ignoredPackets = 0;  ///< belonged to no frame that was awaited
+  LinkCounts operator+(const LinkCounts& other) const {
+    return {.missingPackets = missingPackets + other.missingPackets,
+            .resentPackets = resentPackets + other.resentPackets,
+            .ignoredPackets = ignoredPackets + other.ignoredPackets};
+  }
+  friend bool operator==(const LinkCounts&, const LinkCounts&) = default;
 };
 
 /// One frame of a camera: pixels that belong to the camera, and their metadata. A copy shares the
-/// lease. The buffer returns to the driver when the last copy is dropped. Leases are bounded, so a
-/// slow consumer copies the pixels (`Image`) and drops the frame.
+/// lease. The buffer returns to the driver when the last copy is dropped, and the driver writes to
+/// it from then on: whoever has given a GPU work that reads the dma-bufs keeps a copy of the lease
+/// until the fence behind that work has signalled. Leases are bounded, so a slow consumer copies
+/// the pixels (`Image`) and drops the frame.
+///
+/// For a GPU, the planes lie in `dmaBufs` as the pixel format's drmFourccOf() in the layout of
+/// `modifier`, in the colours of `image.format.encoding`. What was imported is kept by `buffer`.
 struct CapturedFrame {
-  ImageView image;                     ///< CPU view, valid while `lease` is held
-  std::array<DmaBufPlane, 3> dmaBufs;  ///< set if the driver exports them
-  std::uint64_t sequence = 0;          ///< counts frames the device made, from 0
-  std::uint64_t droppedBefore = 0;     ///< frames lost between the last one and this
+  FrameImage image;                    ///< its pixels are mapped on demand, while `lease` is held
+  std::array<DmaBufPlane, 3> dmaBufs;  ///< one an image plane, where the driver has them
+  BufferIdentity buffer;               ///< set wherever dmaBufs are
+  std::uint64_t modifier = kLinearModifier;  ///< of the dma-bufs (drm_fourcc.h)
+  std::uint64_t sequence = 0;                ///< counts frames the device made, from 0
+  std::uint64_t droppedBefore = 0;           ///< frames lost between the last one and this
   /// The part of droppedBefore that was lost to buffer underruns: all buffers were leased, because
   /// the consumer was too slow.
   std::uint64_t underrunsBefore = 0;
+  LinkCounts linkBefore;  ///< packets since the last frame
   TimePoint captureTime;  ///< on the steady clock
   TimestampSource timestampSource = TimestampSource::kArrival;
   std::optional<Duration> deviceTime;  ///< the device's own clock, if it has one

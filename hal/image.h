@@ -28,6 +28,8 @@ struct ImageView {
   bool isComplete() const;
 };
 
+class FrameImage;
+
 /// An image that owns its memory, with packed rows.
 class Image {
  public:
@@ -36,6 +38,8 @@ class Image {
   explicit Image(FrameFormat format);
   /// A packed copy.
   explicit Image(const ImageView& view);
+  /// A packed copy of a camera's picture, which is mapped for it.
+  explicit Image(const FrameImage& picture);
 
   const FrameFormat& format() const { return format_; }
   FrameSize size() const { return format_.size; }

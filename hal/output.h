@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -106,6 +107,14 @@ class MemoryOutput : public Output {
   /// (skippedPictures()). Errors: kNoSpace, kIo, kDeviceLost.
   virtual Result<void> write(const ImageView& picture, Duration time) = 0;
 
+  /// Takes another stream from here on, and answers its format: of kinds that show waiting pictures
+  /// (OutputTraits::showsWaiting). Errors: those of start(); kUnsupported, for other kinds.
+  virtual Result<OutputFormat> reconfigure(const OutputRequest& /*request*/) {
+    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
+                                .subject = identity().id,
+                                .problem = "cannot take another stream"});
+  }
+
   /// How many of the pictures that write() took were dropped, because their reader was too slow.
   virtual std::uint64_t skippedPictures() const { return 0; }
 };
@@ -176,6 +185,33 @@ class SurfaceOutput : public Output {
 
   /// When takeEvents() will have the next one, as far as can be told; none where nothing is queued.
   virtual std::optional<TimePoint> nextEvent() const = 0;
+
+  // Surfaces that a GPU draws into, for outputs that have such beside the others. They are lent,
+  // submitted and released alike, and flipped among them.
+
+  /// Makes `count` surfaces that a GPU draws into, in layouts that it takes (modifiers of
+  /// drm_fourcc.h, for XRGB8888). Those of an earlier call are lent no more, and what was drawn
+  /// into them cannot be submitted. Their descriptors stay open until the next call, reconfigure(),
+  /// an error or destruction. May take some 100 ms. Errors: kUnsupported (why there are none),
+  /// kNoSpace (no memory), kDeviceLost.
+  virtual Result<std::vector<GpuSurface>> lendToGpu(std::span<const std::uint64_t> /*modifiers*/,
+                                                    std::size_t /*count*/) {
+    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
+                                .subject = identity().id,
+                                .problem = "has no buffers for a GPU",
+                                .remedy = {}});
+  }
+  /// One of them that is free; nothing where all are in use. Errors: kUnsupported (the display has
+  /// refused one after all; there are none any more), kDeviceLost.
+  virtual Result<std::optional<SurfaceId>> acquireForGpu() { return std::nullopt; }
+  /// A copy of what the buffer of one of them holds, RGBA8 of the picture's size, or of all the
+  /// buffer. Waits for the GPU; slow. Errors: kUnsupported, kDeviceLost.
+  virtual Result<Image> copyOfGpuSurface(SurfaceId /*surface*/, bool /*isWholeBuffer*/) {
+    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
+                                .subject = identity().id,
+                                .problem = "has no buffers for a GPU",
+                                .remedy = {}});
+  }
 
   /// Set while it shows nothing though it works: acquire() lends nothing, and queued surfaces have
   /// ended as kSkipped. Valid until the next call.

@@ -22,10 +22,11 @@ struct OutputTraits {
   bool writesFiles = false;
   /// It has to be used on the main thread, as windows have.
   bool isOnMainThread = false;
-  /// All that people see of the program, with nothing behind it: it is opened before the camera,
-  /// and shows a waiting picture while there is no painting. It lends surfaces that can be mapped.
+  /// All that people see of the program: it shows a waiting picture while there is no painting, and
+  /// can be reconfigured. It lends surfaces that can be mapped, or takes RGBA8 in memory.
   bool showsWaiting = false;
-  /// A screen without a desktop: keys come from keyboards, and consoles take turns on it.
+  /// A screen without a desktop, with nothing behind it: it is opened before the camera; keys come
+  /// from keyboards, and consoles take turns on it.
   bool isOnConsole = false;
 };
 
@@ -49,7 +50,8 @@ struct OutputDescription {
   std::string name;                  ///< "pleinair", a card's label; empty where it has none
   std::vector<std::string> formats;  ///< that a device takes: fourccs
   bool isBusy = false;               ///< another program has it
-  std::optional<Error> problem;      ///< why it could not be looked at
+  std::string scanOut;           ///< how pictures reach a display's memory; empty: not found out
+  std::optional<Error> problem;  ///< why it could not be looked at
 };
 
 /// The outputs of a kind that are there.

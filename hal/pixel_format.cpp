@@ -84,4 +84,57 @@ std::string_view toString(PixelFormat format) {
   return "unknown";
 }
 
+std::string_view toString(ColorPrimaries primaries) {
+  switch (primaries) {
+    case ColorPrimaries::kUnknown:
+      return "unknown";
+    case ColorPrimaries::kBt709:
+      return "bt709";
+    case ColorPrimaries::kSmpte170m:
+      return "smpte170m";
+    case ColorPrimaries::kBt470bg:
+      return "bt470bg";
+    case ColorPrimaries::kBt2020:
+      return "bt2020";
+    case ColorPrimaries::kOther:
+      return "other";
+  }
+  return "unknown";
+}
+
+std::string_view toString(ColorTransfer transfer) {
+  switch (transfer) {
+    case ColorTransfer::kUnknown:
+      return "unknown";
+    case ColorTransfer::kBt709:
+      return "bt709";
+    case ColorTransfer::kSrgb:
+      return "srgb";
+    case ColorTransfer::kLinear:
+      return "linear";
+    case ColorTransfer::kPq:
+      return "pq";
+    case ColorTransfer::kOther:
+      return "other";
+  }
+  return "unknown";
+}
+
+std::uint32_t drmFourccOf(PixelFormat format) {
+  switch (format) {
+    case PixelFormat::kRgb8:
+      return drmFourcc('B', 'G', '2', '4');
+    case PixelFormat::kRgba8:
+      return drmFourcc('A', 'B', '2', '4');
+    case PixelFormat::kYuyv:
+      return drmFourcc('Y', 'U', 'Y', 'V');
+    case PixelFormat::kNv12:
+      return drmFourcc('N', 'V', '1', '2');
+    case PixelFormat::kI420:
+      return drmFourcc('Y', 'U', '1', '2');
+    default:
+      return drmFourcc('R', '8', ' ', ' ');
+  }
+}
+
 }  // namespace pleinair::hal

@@ -24,10 +24,18 @@ enum class PixelFormat {
 enum class ColorMatrix { kBt601, kBt709 };
 /// Whether luma spans 16..235 (limited) or 0..255 (full).
 enum class ColorRange { kLimited, kFull };
+/// The colours of R, G and B.
+enum class ColorPrimaries { kUnknown, kBt709, kSmpte170m, kBt470bg, kBt2020, kOther };
+/// How light is coded as R', G' and B'.
+enum class ColorTransfer { kUnknown, kBt709, kSrgb, kLinear, kPq, kOther };
 
+/// What a source says of its colours. Pictures are shown by matrix and range; primaries and
+/// transfer are kept as told, and taken for sRGB's.
 struct ColorEncoding {
   ColorMatrix matrix = ColorMatrix::kBt601;
   ColorRange range = ColorRange::kLimited;
+  ColorPrimaries primaries = ColorPrimaries::kUnknown;
+  ColorTransfer transfer = ColorTransfer::kUnknown;
   friend bool operator==(const ColorEncoding&, const ColorEncoding&) = default;
 };
 
@@ -61,5 +69,20 @@ int planeRows(PixelFormat format, int plane, int height);
 bool isYCbCr(PixelFormat format);
 bool isBayer(PixelFormat format);
 std::string_view toString(PixelFormat format);
+std::string_view toString(ColorPrimaries primaries);
+std::string_view toString(ColorTransfer transfer);
+
+/// A pixel layout as DRM names it (drm_fourcc.h).
+constexpr std::uint32_t drmFourcc(char a, char b, char c, char d) {
+  const auto byte = [](char character) {
+    return std::uint32_t{static_cast<unsigned char>(character)};
+  };
+  return byte(a) | byte(b) << 8 | byte(c) << 16 | byte(d) << 24;
+}
+/// DRM's name of the layout of all planes; for mosaics, which it has no name for, that of bytes
+/// without a meaning (R8).
+std::uint32_t drmFourccOf(PixelFormat format);
+/// The modifier of rows one after the other.
+inline constexpr std::uint64_t kLinearModifier = 0;
 
 }  // namespace pleinair::hal

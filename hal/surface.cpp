@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 
 #include <poll.h>
 #include <unistd.h>
@@ -30,6 +31,17 @@ Error refusal(ErrorKind kind, std::string problem) {
 }
 
 }  // namespace
+
+std::string layoutText(std::uint64_t modifier) {
+  if (modifier == kLinearModifier) return "rows (linear)";
+  constexpr int kDigits = 16;
+  constexpr std::string_view kHex = "0123456789abcdef";
+  std::string text = "modifier 0x";
+  for (int digit = kDigits - 1; digit >= 0; --digit) {
+    text += kHex[static_cast<std::size_t>(modifier >> (4 * digit) & 15U)];
+  }
+  return text;
+}
 
 bool Fence::hasSignalled() const {
   if (syncFile_ < 0) return true;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "hal/error.h"
@@ -11,19 +12,13 @@
 
 namespace pleinair::hal {
 
-/// A pixel layout as DRM names it (drm_fourcc.h).
-constexpr std::uint32_t drmFourcc(char a, char b, char c, char d) {
-  const auto byte = [](char character) {
-    return std::uint32_t{static_cast<unsigned char>(character)};
-  };
-  return byte(a) | byte(b) << 8 | byte(c) << 16 | byte(d) << 24;
-}
 inline constexpr std::uint32_t kXrgb8888 = drmFourcc('X', 'R', '2', '4');  ///< bytes B, G, R, X
 inline constexpr std::uint32_t kArgb8888 = drmFourcc('A', 'R', '2', '4');  ///< bytes B, G, R, A
 inline constexpr std::uint32_t kXbgr8888 = drmFourcc('X', 'B', '2', '4');  ///< bytes R, G, B, X
 inline constexpr std::uint32_t kAbgr8888 = drmFourcc('A', 'B', '2', '4');  ///< bytes R, G, B, A
-/// The modifier of rows one after the other.
-inline constexpr std::uint64_t kLinearModifier = 0;
+
+/// "rows (linear)", "modifier 0x0100000000000001".
+std::string layoutText(std::uint64_t modifier);
 
 /// Which of its output's surfaces one is. It lasts as long as the surface does, so that what was
 /// imported is kept by it, never by a file descriptor's number.
@@ -44,6 +39,21 @@ struct Surface {
   std::uint64_t modifier = kLinearModifier;
   int planeCount = 1;
   std::array<SurfacePlane, 4> planes;
+};
+
+/// A surface that a GPU draws into. Its planes are the whole buffer's.
+struct GpuSurface {
+  Surface surface;
+  FrameSize bufferSize;
+  int x = 0;  ///< of the picture in the buffer, which is black elsewhere
+  int y = 0;
+};
+
+/// A GpuSurface that a painter has, of one of several loans of an output.
+struct LentSurface {
+  std::uint64_t loan = 0;
+  SurfaceId id{};
+  friend bool operator==(const LentSurface&, const LentSurface&) = default;
 };
 
 /// When a surface's content is complete: a sync_file that it owns, or nothing, where it is

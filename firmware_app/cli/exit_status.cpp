@@ -5,9 +5,11 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "config/config_error.h"
 #include "firmware_app/cli/standard_streams.h"
+#include "firmware_app/service_manager/journal_stream.h"
 #include "hal/error.h"
 
 namespace pleinair::app {
@@ -17,7 +19,8 @@ void printError(std::string_view message) {
   // Replaces control characters: file names and arguments may contain any.
   std::ranges::replace_if(
       line, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, '?');
-  writeText(stderr, fmt::format("pleinair: {}\n", line));
+  writeText(stderr,
+            fmt::format("{}{}\n", isJournalStream(STDERR_FILENO) ? "<3>" : "pleinair: ", line));
 }
 
 ExitStatus exitStatusOf(const hal::Error& error) {

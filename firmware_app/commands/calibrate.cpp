@@ -163,7 +163,8 @@ class CalibrationRun {
                          format_.frame.size.height, size.width, size.height),
              "a calibration is for one frame size: give frames of one size");
     }
-    const calibration::ViewOutcome outcome = session_.offer(frame.image, frame.captureTime);
+    const calibration::ViewOutcome outcome =
+        session_.offer(frame.image.map().view(), frame.captureTime);
     progress_.advance(session_.selector(), outcome);
   }
 

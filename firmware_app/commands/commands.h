@@ -9,6 +9,7 @@
 #include "firmware_app/cli/board_option.h"
 #include "firmware_app/config/configuration.h"
 #include "firmware_app/offline/painting.h"
+#include "firmware_app/sheets/printed_page.h"
 #include "hal/clock.h"
 #include "pipeline/measure/input/moved_photograph.h"
 
@@ -82,6 +83,7 @@ struct RecordOptions {
   std::filesystem::path output;
   std::uint64_t frames = 150;
   std::optional<std::filesystem::path> writeScene;
+  bool lossless = false;  ///< to the bit, with what the camera says of each frame, to .mkv
 };
 
 /// Records [camera]'s camera to a movie or pictures, unpainted: `pleinair record`. Throws
@@ -90,27 +92,46 @@ int record(const RecordOptions& options);
 
 struct RenderOptions {
   ConfigurationRequest configuration;
-  std::filesystem::path input;
-  hal::Duration from{0};  ///< the part of the recording (hal::RecordingOptions)
+  std::vector<std::filesystem::path> inputs;  ///< at least one
+  hal::Duration from{0};                      ///< the part of the recording (hal::RecordingOptions)
   std::optional<hal::Duration> to;
   bool keepsSound = true;
-  PaintingOptions painting;  ///< the options that are not configuration
+  std::string step;  ///< of [procedure]'s: id or number; empty: one after the other
+  double secondsPerStep = 4.0;
+  /// The options that are not configuration. "{name}" in its output, poses and contact sheet
+  /// stands for the input's name.
+  PaintingOptions painting;
 };
 
-/// Paints a recording, every frame: `pleinair render`. Throws hal::Failure and config::ConfigError.
-/// Returns the exit status: 0, or 128 + the signal that interrupted it. What is kept then is said
-/// at runPainting().
+/// Paints recordings, every frame, one after the other: `pleinair render`. Of several, one that
+/// fails is reported, and the next one is painted. Throws hal::Failure (for a single one) and
+/// config::ConfigError. Returns the exit status: 0, that of the first failure, or 128 + the signal
+/// that interrupted it. What is kept then is said at runPainting().
 int render(const RenderOptions& options);
 
 struct RunOptions {
   ConfigurationRequest configuration;
+  std::vector<std::string> outputs;     ///< as they were given
   std::optional<std::uint64_t> frames;  ///< default: until the user ends it
   std::filesystem::path shaderDirectory;
+  std::string program;  ///< version of this program, for records
 };
 
 /// Paints a camera live: `pleinair run`. Throws hal::Failure and config::ConfigError. Returns the
 /// exit status: 0, also after a signal.
 int run(const RunOptions& options);
+
+struct RescueOptions {
+  ConfigurationRequest configuration;  ///< where the picture is shown; may be wrong
+  std::string title = "The painting will be back soon";
+  std::string detail;
+  std::optional<hal::Duration> time;  ///< default: until a signal
+};
+
+/// Shows a picture with a text on the displays of the configuration, drawn by the processor:
+/// `pleinair rescue`. A configuration that is wrong is shown as the text. Throws hal::Failure for a
+/// display that can be none. Returns 0, after the time or a signal.
+int showRescue(const RescueOptions& options);
 
 struct LooksOptions {
   std::filesystem::path input;      ///< a picture, or a movie
@@ -135,6 +156,20 @@ struct SceneCheckOptions {
 /// edges, axes and the models drawn over them. Throws hal::Failure and config::ConfigError. Returns
 /// the exit status: 0; 1 with mistakes; or 128 + the signal that interrupted it.
 int checkScene(const SceneCheckOptions& options);
+
+struct TagsOptions {
+  std::filesystem::path sheet;  ///< PDF
+  PaperSize paper;
+  std::optional<std::filesystem::path> scene;  ///< whose tags are printed; else `ids`
+  std::string family{"tag36h11"};
+  std::vector<int> ids{0};
+  double edgeMetres = 0.12;
+  std::optional<BoardOption> board;  ///< a calibration board instead of tags
+};
+
+/// Writes tags, or a calibration board, as a PDF at their true sizes, with rulers, and prints what
+/// a scene says of the tags: `pleinair tags`. Throws hal::Failure and config::ConfigError.
+int printTags(const TagsOptions& options);
 
 struct WarmUpOptions {
   ConfigurationRequest configuration;  ///< its scene and size are painted too

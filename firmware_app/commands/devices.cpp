@@ -3,15 +3,29 @@
 #include "firmware_app/commands/commands.h"
 #include "firmware_app/config/camera_selection.h"
 #include "firmware_app/devices/inventory.h"
+#include "firmware_app/doctor/scan_out_trial.h"
 #include "hal/outputs/registry.h"
 
 namespace pleinair::app {
 namespace {
 
+/// For displays that are plugged in.
+void tryScanOut(std::vector<KindOfOutputs>& kinds) {
+  for (KindOfOutputs& kind : kinds) {
+    for (hal::OutputDescription& each : kind.listing.outputs) {
+      const hal::Result<const hal::OutputKind*> of = hal::outputKindOf(each.target);
+      if (!of || !(*of)->traits.isOnConsole || each.problem) continue;
+      each.scanOut = doctor::textOf(doctor::tryScanOut(each.target));
+    }
+  }
+}
+
 Inventory takeInventory() {
-  return {.cameras = listDeviceCameras(deviceBackends()),
-          .outputs = listOutputs(hal::outputKinds()),
-          .keyboards = listKeyboards(hal::kernelKeyboards())};
+  Inventory inventory{.cameras = listDeviceCameras(deviceBackends()),
+                      .outputs = listOutputs(hal::outputKinds()),
+                      .keyboards = listKeyboards(hal::kernelKeyboards())};
+  tryScanOut(inventory.outputs);
+  return inventory;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "config/config_error.h"
 #include "firmware_app/commands/commands.h"
 #include "firmware_app/config/camera_selection.h"
+#include "firmware_app/config/configured_parts.h"
 #include "firmware_app/config/requested_parts.h"
 #include "firmware_app/devices/inventory.h"
 #include "firmware_app/doctor/checks.h"
@@ -14,7 +15,9 @@
 namespace pleinair::app {
 int examineMachine(const DoctorOptions& options) {
   doctor::Probes probes = doctor::systemProbes();
-  probes.cameras = [] { return listDeviceCameras(deviceBackends()); };
+  // Asked for by several checks; looking for cameras on a network takes a second.
+  const DeviceCameras cameras = listDeviceCameras(deviceBackends());
+  probes.cameras = [&] { return cameras; };
   probes.snapshots = ".";
   std::optional<std::string> configurationError;
   std::vector<doctor::RequestedPart> requested;
@@ -22,6 +25,9 @@ int examineMachine(const DoctorOptions& options) {
     const Configuration configuration(options.configuration);
     probes.snapshots = configuration.output().snapshots;
     requested = requestedParts(configuration);
+    const CameraSettings camera = configuredCamera(configuration);
+    const double asked = camera.framesPerSecond * camera.size.width * camera.size.height;
+    probes.askedPixelsPerSecond = [asked] { return asked; };
   } catch (const config::ConfigError& error) {
     configurationError = error.what();
   }

@@ -124,7 +124,7 @@ bool hasModels(const scene::Scene& scene) {
 /// The look in force; empty where the style has none.
 std::string lookOf(const PaintingSettings& painting) {
   const auto looks = styles::styleKind(painting.style).looks;
-  if (painting.look != kDefaultLook) return painting.look;
+  if (painting.look != kDefaultLook) return painting.look.string();
   return looks.empty() ? "" : std::string(looks.front().name);
 }
 

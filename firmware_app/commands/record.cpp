@@ -1,9 +1,12 @@
 #include <memory>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "firmware_app/commands/commands.h"
 #include "firmware_app/config/camera_selection.h"
 #include "firmware_app/config/configured_parts.h"
+#include "firmware_app/offline/capturing.h"
 #include "firmware_app/scene/workbench_scene.h"
 #include "hal/cameras/recording/recording_kind.h"
 
@@ -48,6 +51,20 @@ std::unique_ptr<hal::Camera> openCamera(const RecordOptions& options,
   return camera;
 }
 
+std::string textOf(const CameraSettings& camera) {
+  return fmt::format("{}x{} at {}; exposure {}, gain {}, focus {}, white_balance {}",
+                     camera.size.width, camera.size.height, camera.framesPerSecond, camera.exposure,
+                     camera.gain, camera.focus, camera.whiteBalance);
+}
+
+void refuseOtherThanMatroska(const std::filesystem::path& output) {
+  if (output.extension() == ".mkv") return;
+  throw hal::Failure({.kind = hal::ErrorKind::kInvalidArgument,
+                      .subject = "--output",
+                      .problem = "--lossless does not write \"" + output.string() + "\"",
+                      .remedy = "give a name that ends in .mkv"});
+}
+
 }  // namespace
 
 int record(const RecordOptions& options) {
@@ -55,11 +72,20 @@ int record(const RecordOptions& options) {
   return configuration.attributing([&] {
     refuseSlipOfCamera(configuration);
     refuseCollisionsOf(options, configuration);
+    if (options.lossless) refuseOtherThanMatroska(options.output);
     const CameraSettings settings = configuration.camera();
     hal::SteppedClock stepped;
     hal::SteadyClock steady;  // the clock of a real device
     hal::Clock& clock = isDevice(settings) ? static_cast<hal::Clock&>(steady) : stepped;
     const auto camera = openCamera(options, settings, clock);
+    if (options.lossless) {
+      return runCapture({.camera = camera.get(),
+                         .request = streamRequestOf(settings),
+                         .requestText = textOf(settings),
+                         .clock = &clock,
+                         .output = options.output,
+                         .frames = options.frames});
+    }
     return runPainting(
         {.camera = camera.get(),
          .request = streamRequestOf(settings),

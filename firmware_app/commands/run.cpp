@@ -1,24 +1,40 @@
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "firmware_app/cli/interrupt.h"
+#include "firmware_app/cli/reload_signal.h"
 #include "firmware_app/commands/commands.h"
 #include "firmware_app/config/camera_selection.h"
 #include "firmware_app/config/configuration_sections.h"
 #include "firmware_app/config/configured_parts.h"
+#include "firmware_app/config/reload.h"
 #include "firmware_app/live/last_painting.h"
 #include "firmware_app/live/live_painting.h"
+#include "firmware_app/live/step_inputs.h"
+#include "firmware_app/overlay/machine.h"
+#include "firmware_app/service_manager/passed_socket.h"
+#include "firmware_app/service_manager/service_manager.h"
+#include "firmware_app/status_server/listen_address.h"
 #include "hal/clock.h"
 #include "hal/error.h"
 #include "hal/outputs/registry.h"
+#include "pipeline/procedure/step_command.h"
+#include "pipeline/styles/registry.h"
 
 namespace pleinair::app {
 namespace {
+
+constexpr std::string_view kTargetsKey = "output.targets";
 
 std::vector<std::string> targetsOf(const OutputSettings& output) {
   std::vector<std::string> targets;
@@ -63,19 +79,110 @@ void refuseCollisionsOf(const Configuration& configuration, const scene::Scene& 
   refuseTwice(targetsOf(configuration.output()));
 }
 
+/// The words of a command line that asks for the same, apart from how is painted.
+std::vector<std::string> commandOf(const RunOptions& options) {
+  const ConfigurationRequest& request = options.configuration;
+  std::vector<std::string> words{"pleinair", "run"};
+  const auto add = [&words](const std::string& option, const std::string& value) {
+    words.insert(words.end(), {option, value});
+  };
+  if (request.profile) add("--profile", *request.profile);
+  if (request.siteFile) add("--config", request.siteFile->string());
+  for (const OptionValue& each : request.options) {
+    const bool isTuned = each.key == kStyleKey || each.key == kLookKey || each.key == kViewKey;
+    if (!isTuned && each.key != kTargetsKey) add(each.option, each.text);
+    if (each.key != kTargetsKey) continue;
+    for (const std::string& target : options.outputs) add(each.option, target);
+  }
+  for (const std::string& setting : request.set) {
+    const std::string key = setting.substr(0, setting.find('='));
+    const bool isTuned = key.find('.') == std::string::npos || key.starts_with("style.") ||
+                         key == kStyleKey || key == kLookKey || key == kViewKey;
+    if (!isTuned) add("--set", setting);
+  }
+  if (!options.shaderDirectory.empty()) add("--shaders", options.shaderDirectory.string());
+  return words;
+}
+
 void requireFolder(const std::filesystem::path& folder) {
   std::error_code ignored;
   if (std::filesystem::is_directory(folder, ignored)) return;
   throw hal::Failure(hal::Error{.kind = hal::ErrorKind::kNotFound,
                                 .subject = folder.string(),
                                 .problem = "is not a folder",
-                                .remedy = "make it, or give another --snapshots DIR"});
+                                .remedy = "make it, or give another folder"});
+}
+
+std::map<std::string, config::ParameterValues> parametersOfStyles(
+    const Configuration& configuration) {
+  std::map<std::string, config::ParameterValues> parameters;
+  for (const styles::StyleKind* kind : styles::styleKinds()) {
+    const std::string name(kind->name);
+    parameters.emplace(name, configuration.parametersOfStyle(name));
+  }
+  return parameters;
+}
+
+/// What keys step through; nothing where the configuration names no procedure.
+std::unique_ptr<LiveProcedure> configuredProcedure(const Configuration& configuration,
+                                                   const std::string& program,
+                                                   const hal::Clock& clock) {
+  const ProcedureSettings settings = configuration.procedure();
+  if (settings.folder == kNoFile) return nullptr;
+  const bool hasRecords = settings.records != kNoFile;
+  if (hasRecords) requireFolder(settings.records);
+  return std::make_unique<LiveProcedure>(
+      LiveProcedureOptions{
+          .folder = settings.folder,
+          .language = settings.language == "default" ? std::string() : settings.language,
+          .records = hasRecords ? settings.records : std::filesystem::path(),
+          .operatorName =
+              settings.operatorName == "unnamed" ? std::string() : settings.operatorName,
+          .workOrder = settings.workOrder == "none" ? std::string() : settings.workOrder,
+          .program = program,
+          .stillsOfSteps = settings.stills == "steps"},
+      clock);
+}
+
+/// Puts the procedure's machine into the scene. Nothing without a scene: then there is only the
+/// instruction.
+std::optional<std::size_t> placedMachine(const Configuration& configuration,
+                                         const LiveProcedure* procedure, scene::Scene& scene) {
+  if (procedure == nullptr || scene.models.empty()) return std::nullopt;
+  const auto instruction = procedure->shown().procedure;
+  const std::size_t machine = machineIn(scene, *instruction, configuration.procedure().machine);
+  putMachine(scene, machine, *instruction);
+  return machine;
+}
+
+/// A tag of the scene cannot be a command card, too: it is always in view.
+void refuseCardsOf(const InputMap& inputs, const scene::Scene& scene) {
+  for (const auto& [id, command] : inputs.cards) {
+    if (scene.findTag(id) == nullptr) continue;
+    throw hal::Failure(
+        {.kind = hal::ErrorKind::kInvalidArgument,
+         .subject = "input.map",
+         .problem = fmt::format("the command card {} is a tag of the scene, too", id),
+         .remedy = "another id for the card"});
+  }
+}
+
+/// The server's thread.
+hal::Result<void> putCommand(StepCommandQueue& commands, std::string_view text) {
+  auto command = procedure::parseStepCommand(text);
+  if (!command) return tl::unexpected(std::move(command.error()));
+  return commands.put(*std::move(command));
 }
 
 }  // namespace
 
 int run(const RunOptions& options) {
   const Interrupt interrupt;  // first, so that a signal ends the program in order from here on
+  const ServiceManager serviceManager(takeServiceEnvironment());
+  // A terminal that hangs up ends the program; a service manager asks to reload.
+  std::optional<ReloadSignal> reloadSignal;
+  if (serviceManager.isThere()) reloadSignal.emplace();
+  hal::FileDescriptor statusSocket = takePassedSocket();
   const Configuration configuration(options.configuration);
   return configuration.attributing([&] {
     scene::Scene scene = configuredScene(configuration);
@@ -84,15 +191,24 @@ int run(const RunOptions& options) {
     refuseCollisionsOf(configuration, scene);
     requireFolder(output.snapshots);
     hal::SteadyClock clock;
+    const auto procedure = configuredProcedure(configuration, options.program, clock);
+    const std::optional<std::size_t> machine = placedMachine(configuration, procedure.get(), scene);
+    const InputMap inputs = configuredInputMap(configuration);
+    refuseCardsOf(inputs, scene);
+    StepCommandQueue commands;
+    const std::string token =
+        procedure ? configuredToken(configuration, static_cast<bool>(statusSocket)) : std::string();
     const CameraSettings camera = configuredCamera(configuration);
     const auto selector = makeCameraSelector(camera, clock);
+    const PaintingOptions painting = configuredPainting(
+        configuration,
+        {.output = {}, .frames = options.frames, .shaderDirectory = options.shaderDirectory});
     return runLive(
         {.selector = selector.get(),
          .request = streamRequestOf(camera),
          .clock = &clock,
-         .options = configuredPainting(
-             configuration,
-             {.output = {}, .frames = options.frames, .shaderDirectory = options.shaderDirectory}),
+         .options = painting,
+         .otherStyles = parametersOfStyles(configuration),
          .outputs = targetsOf(output),
          .openOutput = [options = output.options](
                            const std::string& target) { return hal::openOutput(target, options); },
@@ -100,15 +216,31 @@ int run(const RunOptions& options) {
          .keyboards = configuredKeyboards(configuration),
          .serveStatus =
              [&](StatusPages pages) {
-               return configuredStatusServer(configuration, std::move(pages));
+               pages.commands = {.token = token, .take = [&commands](std::string_view text) {
+                                   return putCommand(commands, text);
+                                 }};
+               return configuredStatusServer(configuration, std::move(pages),
+                                             std::move(statusSocket));
              },
+         .servesPictures = configuration.status().listen != kNoServer,
          .waitsForCamera = camera.wait,
          .waitsForOutputs = output.wait,
          .showsWaiting = output.waitingPictures,
          .state = output.keepsLastPainting ? stateFolder() : std::filesystem::path(),
          .scene = std::move(scene),
          .snapshots = output.snapshots,
-         .frameLog = frameLogOf(configuration)});
+         .command = commandOf(options),
+         .procedure = procedure.get(),
+         .procedureFolder = configuration.procedure().folder,
+         .machine = machine,
+         .showsInset = configuration.procedure().inset == "always",
+         .inputs = inputs,
+         .commands = token.empty() ? nullptr : &commands,
+         .frameLog = frameLogOf(configuration),
+         .serviceManager = serviceManager.isThere() ? &serviceManager : nullptr,
+         .reload = [&]() -> Reload {
+           return reloaded(options.configuration, configuration, painting);
+         }});
   });
 }
 

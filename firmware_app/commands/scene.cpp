@@ -73,7 +73,7 @@ class SceneFilm {
     if (!firstTime_) firstTime_ = frame.captureTime;
     const Picture picture = orThrow(painter_.paint(frame, painter_.defaultParameters()));
     const bool isWanted = sheet_.wants(observer_.frames());
-    observer_.take(frame.image, picture.tracking);
+    observer_.take(frame.image.map().view(), picture.tracking);
     if (!isWanted) return;
     const hal::Image original = orThrow(painter_.cameraSnapshot());
     hal::Image drawn = orThrow(painter_.snapshot());

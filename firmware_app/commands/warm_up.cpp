@@ -24,7 +24,7 @@ namespace {
 using hal::orThrow;
 using hal::PixelFormat;
 
-/// Of the film, where nothing else is configured.
+/// Size of the film that shaders are compiled with, where none is configured.
 constexpr hal::FrameSize kFilmSize{640, 480};
 /// Enough for what compares a frame with the ones before.
 constexpr int kFramesOfALook = 3;

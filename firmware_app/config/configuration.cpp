@@ -12,6 +12,7 @@
 #include "config/profiles.h"
 #include "config/suggestion.h"
 #include "firmware_app/config/configuration_sections.h"
+#include "firmware_app/config/look_file.h"
 #include "firmware_app/config/renamed.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/styles/registry.h"
@@ -87,13 +88,40 @@ void applySetting(Sections& sections, const std::string& setting) {
   sections.apply(name, std::string_view(setting).substr(equals + 1), "--set " + name, section);
 }
 
+/// Throws a ConfigError that names the place that gave the file, unless it has a line in the file.
+LookFile lookFileOf(const Sections& sections) {
+  try {
+    return readLookFile(paintingOf(sections).look);
+  } catch (const ConfigError& error) {
+    if (error.line() > 0) throw;
+    throw sections.errorAt(kLookKey, error.what(), {});
+  }
+}
+
+/// A look file that a layer names chooses its style, which the layer must not contradict.
+void chooseStyleOfLook(Sections& sections, const Sections& before) {
+  const PaintingSettings painting = paintingOf(sections);
+  const std::string& place = sections.origin(kLookKey);
+  if (!isLookFile(painting.look) || place == before.origin(kLookKey)) return;
+  const std::string style = lookFileOf(sections).style;
+  if (style == painting.style) return;
+  if (sections.origin(kStyleKey) != before.origin(kStyleKey)) {
+    throw sections.errorAt(
+        kLookKey, fmt::format("{} is a look of the style {}", painting.look.string(), style),
+        fmt::format("a look of {}, or no other style", painting.style));
+  }
+  sections.apply(kStyleKey, style, place);
+}
+
 void applyCommandLine(Sections& sections, const ConfigurationRequest& request) {
+  const Sections before = sections;
   if (request.profile) sections.apply(kProfileKey, *request.profile, "--profile");
   for (const OptionValue& each : request.options) {
     sections.apply(each.key, each.text, each.option);
   }
-  // Those that name their section may change the style, which the others are of.
+  // Those that name their section may change the style, which the others are of; so may a look.
   for (const bool hasSection : {true, false}) {
+    if (!hasSection) chooseStyleOfLook(sections, before);
     for (const std::string& setting : request.set) {
       const bool isNamed = setting.substr(0, setting.find('=')).find('.') != std::string::npos;
       if (isNamed == hasSection) applySetting(sections, setting);
@@ -151,7 +179,9 @@ void validateStyle(Sections& sections, const Sections& before) {
   for (const styles::Look& look : styles::styleKind(settled.style).looks) {
     looks.emplace_back(look.name);
   }
-  checkName(sections, kLookKey, settled.look, "the looks", looks);
+  if (!isLookFile(settled.look)) {
+    checkName(sections, kLookKey, settled.look.filename().string(), "the looks", looks);
+  }
   std::vector<std::string> views{std::string(kFinishedView)};
   for (const DebugView& view : debugViewsOf(settled.style)) views.push_back(view.name);
   checkName(sections, kViewKey, settled.view, "the views", views);
@@ -167,6 +197,7 @@ bool holdsPath(const config::ParameterValue& value, const std::string& path) {
 void lay(Sections& sections, const std::function<void(Sections&)>& layer) {
   const Sections before = sections;
   layer(sections);
+  chooseStyleOfLook(sections, before);
   validateStyle(sections, before);
 }
 
@@ -176,13 +207,17 @@ void applyLook(Sections& sections) {
   if (painting.look == kDefaultLook) return;
   const std::string section = styleSection(painting.style);
   const ParameterValues given = sections.values(section);
-  const ParameterValues look = styles::styleKind(painting.style).parametersOf(painting.look);
+  const bool isFile = isLookFile(painting.look);
+  const ParameterValues look =
+      isFile ? lookFileOf(sections).values
+             : styles::styleKind(painting.style).parametersOf(painting.look.string());
   ParameterValues values = given;
   for (std::size_t i = 0; i < given.list().descriptors().size(); ++i) {
     const std::string& name = given.list().descriptors()[i].name;
     const bool isOpen = given.origin(name) == config::kDefaultOrigin;
     if (!isOpen || look.origin(name) == config::kDefaultOrigin) continue;
-    values = values.with(i, look.at(i), "look " + painting.look);
+    values =
+        values.with(i, look.at(i), isFile ? look.origin(name) : "look " + painting.look.string());
   }
   sections.setValues(section, std::move(values));
 }
@@ -234,6 +269,7 @@ Configuration::Configuration(const ConfigurationRequest& request)
   lay(sections_, [&](Sections& sections) { applyCommandLine(sections, request); });
   checkLatency(sections_);
   given_ = sections_;
+  if (const fs::path look = paintingOf(sections_).look; isLookFile(look)) files_.push_back(look);
   applyLook(sections_);
 }
 
@@ -262,12 +298,34 @@ RuntimeSettings Configuration::runtime() const {
   return runtimeOf(sections_);
 }
 
+ProcedureSettings Configuration::procedure() const {
+  return procedureOf(sections_);
+}
+
 StatusSettings Configuration::status() const {
   return statusOf(sections_);
 }
 
+const ParameterValues& Configuration::parametersOfStyle(std::string_view style) const {
+  return sections_.values(styleSection(style));
+}
+
 const ParameterValues& Configuration::styleParameters() const {
   return sections_.values(styleSection(painting().style));
+}
+
+std::vector<std::string> Configuration::keysUnlike(const Configuration& other) const {
+  std::vector<std::string> keys;
+  for (const config::Section& section : sections_.all()) {
+    const ParameterValues& values = section.values;
+    const ParameterValues& others = other.sections_.values(section.name);
+    for (std::size_t i = 0; i < values.list().descriptors().size(); ++i) {
+      if (values.at(i) == others.at(i)) continue;
+      const std::string& name = values.list().descriptors()[i].name;
+      keys.push_back(section.name.empty() ? name : fmt::format("{}.{}", section.name, name));
+    }
+  }
+  return keys;
 }
 
 std::string Configuration::toToml(config::Printed which) const {

@@ -37,7 +37,7 @@ struct CameraSettings {
 /// [painting]
 struct PaintingSettings {
   std::string style = "watercolor";
-  std::string look = "default";
+  std::filesystem::path look = "default";  ///< a look's name, or a look file
   std::string view = "finished";
   config::PixelSize size;  ///< 0x0: the camera's
   std::filesystem::path scene = "none";
@@ -57,6 +57,7 @@ struct OutputSettings {
 struct InputSettings {
   std::string keyboards = "auto";  ///< hal::KeyboardChoice::parsed()
   bool grab = false;
+  std::filesystem::path map = "none";  ///< the file that readInputMap() reads
 };
 
 /// [runtime]
@@ -68,9 +69,22 @@ struct RuntimeSettings {
   std::filesystem::path frameLog = "none";  ///< the file that FrameLogFile writes
 };
 
+/// [procedure]
+struct ProcedureSettings {
+  std::filesystem::path folder = "none";
+  std::string language = "default";        ///< the procedure's first
+  std::string machine = "auto";            ///< the model of the scene that it is about
+  std::string inset = "auto";              ///< when the step is drawn from the model: or "always"
+  std::filesystem::path records = "none";  ///< the folder that records go to
+  std::string operatorName = "unnamed";
+  std::string workOrder = "none";
+  std::string stills = "checks";  ///< or "steps": before and after each, too
+};
+
 /// [status]
 struct StatusSettings {
-  std::string listen = "off";  ///< or ADDRESS:PORT
+  std::string listen = "off";                ///< or ADDRESS:PORT
+  std::filesystem::path tokenFile = "none";  ///< of those who may send commands
 };
 
 /// A key that an option of the command line gives.
@@ -98,7 +112,8 @@ class Configuration {
  public:
   /// Lays over the defaults: the profile, the site file, the environment, the command line; a look
   /// goes right above the defaults of its style, whichever layer names it. A layer that changes the
-  /// style drops the look and the view that a weaker one named, for they are the former style's.
+  /// style drops the look and the view that a weaker one named, for they are the former style's. A
+  /// look file (look_file.h) chooses its style, too.
   ///
   /// The site file is --config's, else PLEINAIR_CONFIG's (empty: none), else the default one where
   /// there is one. The profile is --profile's, PLEINAIR_PROFILE's or the site file's.
@@ -112,12 +127,18 @@ class Configuration {
   OutputSettings output() const;
   InputSettings input() const;
   RuntimeSettings runtime() const;
+  ProcedureSettings procedure() const;
   StatusSettings status() const;
   /// The parameters of the style in force.
   const config::ParameterValues& styleParameters() const;
+  /// Those of a style, in force or not. Precondition: there is one of this name.
+  const config::ParameterValues& parametersOfStyle(std::string_view style) const;
 
   const std::string& origin(std::string_view key) const { return sections_.origin(key); }
-  /// The profile and the site file, where there are any: nothing may be written over them.
+  /// The keys whose values differ from those of `other`, with their sections.
+  std::vector<std::string> keysUnlike(const Configuration& other) const;
+  /// The profile, the site file and the look file, where there are any: nothing may be written over
+  /// them.
   const std::vector<std::filesystem::path>& files() const { return files_; }
   /// As of `pleinair config`.
   std::string toToml(config::Printed which) const;

@@ -93,14 +93,24 @@ std::vector<std::string> styleNames() {
   return names;
 }
 
+std::vector<std::string> lookNames() {
+  std::vector<std::string> names{std::string(kDefaultLook)};
+  for (const styles::StyleKind* kind : styles::styleKinds()) {
+    for (const styles::Look& look : kind->looks) names.emplace_back(look.name);
+  }
+  return names;
+}
+
 const ParameterTable<PaintingSettings>& paintingTable() {
   using P = PaintingSettings;
   static const ParameterTable<P> kTable{
       choiceParameter("style", &P::style, styleNames(),
                       "How to paint; `pleinair styles` lists styles, looks and views.",
                       TakesEffect::kRestart),
-      textParameter("look", &P::look, "default, or a look of the style",
-                    "A preset of the style's parameters; \"default\" is its first one."),
+      pathParameter("look", &P::look, lookNames(),
+                    "A preset of the style's parameters; \"default\" is its first one; a look file "
+                    "(.toml) chooses its style, too.",
+                    TakesEffect::kLive),
       textParameter("view", &P::view, "finished, or a view of the style",
                     "What is shown of the painting."),
       sizeParameter("size", &P::size, kSizes, {"camera"},
@@ -126,8 +136,8 @@ const ParameterTable<OutputSettings>& outputTable() {
                       "one that is lost later is always waited for.",
                       TakesEffect::kRestart),
       switchParameter("waiting_pictures", &OutputSettings::waitingPictures,
-                      "Whether a display shows a picture that says what it waits for while there "
-                      "is no painting; else the last one stays, or black.",
+                      "Whether a display or window shows a picture that says what it waits for "
+                      "while there is no painting; else the last one stays, or black.",
                       TakesEffect::kRestart),
       switchParameter("keep_last_painting", &OutputSettings::keepsLastPainting,
                       "Whether the last painting of a display is kept for the first picture of the "
@@ -184,7 +194,11 @@ const ParameterTable<InputSettings>& inputTable() {
       switchParameter("grab", &InputSettings::grab,
                       "Whether their keys reach pleinair alone, and neither the console nor other "
                       "programs; Ctrl+Alt+F2 too then does nothing.",
-                      TakesEffect::kRestart)};
+                      TakesEffect::kRestart),
+      pathParameter("map", &InputSettings::map, {std::string(kNoFile)},
+                    "The file that says which pedals, buttons and command cards lead through a "
+                    "procedure; `pleinair inputs --learn` writes it.",
+                    TakesEffect::kRestart, ".toml")};
   return kTable;
 }
 
@@ -219,11 +233,46 @@ std::string cameraSection(const hal::CameraKind& kind) {
   return fmt::format("camera.{}", kind.name);
 }
 
+const ParameterTable<ProcedureSettings>& procedureTable() {
+  using P = ProcedureSettings;
+  static const ParameterTable<P> kTable{
+      pathParameter(
+          "folder", &P::folder, {std::string(kNoFile)},
+          "The folder of a work instruction that keys step through (docs/repair-station.md)."),
+      textParameter("language", &P::language,
+                    "a language of the procedure, or \"default\": its first",
+                    "Language of its texts.", TakesEffect::kRestart),
+      textParameter("machine", &P::machine, "a model of the scene, or \"auto\": the one that fits",
+                    "The model of the scene that it is about; it takes the procedure's parts.",
+                    TakesEffect::kRestart),
+      textParameter(
+          "inset", &P::inset, "\"auto\" or \"always\"",
+          "When the step is drawn from the model beside: auto, where it cannot be shown on "
+          "the machine.",
+          TakesEffect::kRestart),
+      pathParameter("records", &P::records, {std::string(kNoFile)},
+                    "The folder that records of what was done go to; the newest one that is not "
+                    "signed off is resumed."),
+      textParameter("operator", &P::operatorName, "a name", "Who works, for the record.",
+                    TakesEffect::kRestart),
+      textParameter("work_order", &P::workOrder, "a text", "The work order, for the record.",
+                    TakesEffect::kRestart),
+      choiceParameter("stills", &P::stills, {"checks", "steps"},
+                      "Which pictures of the camera go into the record: those of checks, or also "
+                      "one before and after each step.",
+                      TakesEffect::kRestart)};
+  return kTable;
+}
+
 const ParameterTable<StatusSettings>& statusTable() {
-  static const ParameterTable<StatusSettings> kTable{textParameter(
-      "listen", &StatusSettings::listen, std::string(kAllowedListen),
-      "Address of the HTTP server of /status, /metrics and /healthz.", TakesEffect::kRestart,
-      [](std::string_view text) { return parseListen(std::string(text)).has_value(); })};
+  static const ParameterTable<StatusSettings> kTable{
+      textParameter(
+          "listen", &StatusSettings::listen, std::string(kAllowedListen),
+          "Address of the HTTP server of /status, /metrics and /healthz.", TakesEffect::kRestart,
+          [](std::string_view text) { return parseListen(std::string(text)).has_value(); }),
+      pathParameter("token_file", &StatusSettings::tokenFile, {std::string(kNoFile)},
+                    "A file with the secret of those who may POST commands to a procedure, from "
+                    "this machine alone; none: nobody may.")};
   return kTable;
 }
 
@@ -273,6 +322,8 @@ config::Sections defaultSections() {
   sections.push_back(
       {"runtime", "Latency and quality of live painting.", runtimeTable().defaults()});
   sections.push_back(
+      {"procedure", "A work instruction that is carried out.", procedureTable().defaults()});
+  sections.push_back(
       {"status", "Status of the running program over HTTP.", statusTable().defaults()});
   for (const styles::StyleKind* kind : styles::styleKinds()) {
     sections.push_back({fmt::format("style.{}", kind->name),
@@ -315,6 +366,10 @@ InputSettings inputOf(const config::Sections& sections) {
 
 RuntimeSettings runtimeOf(const config::Sections& sections) {
   return runtimeTable().typed(sections.values("runtime"));
+}
+
+ProcedureSettings procedureOf(const config::Sections& sections) {
+  return procedureTable().typed(sections.values("procedure"));
 }
 
 StatusSettings statusOf(const config::Sections& sections) {

@@ -14,6 +14,7 @@ inline constexpr std::string_view kVariablePrefix = "PLEINAIR_";
 inline constexpr std::string_view kNoFile = "none";
 inline constexpr std::string_view kDefaultLook = "default";
 inline constexpr std::string_view kFinishedView = "finished";
+inline constexpr std::string_view kStyleKey = "painting.style";
 inline constexpr std::string_view kLookKey = "painting.look";
 inline constexpr std::string_view kViewKey = "painting.view";
 
@@ -25,7 +26,8 @@ std::vector<std::string> openCameraNames();
 bool isCameraName(std::string_view source);
 
 /// Every key that the program knows, at its default: the profile, [camera] with a [camera.…] for
-/// each kind, [painting], [output], [runtime], [status] and a [style.…] for each style.
+/// each kind, [painting], [output], [runtime], [procedure], [status] and a [style.…] for each
+/// style.
 config::Sections defaultSections();
 
 // The settings in force of what defaultSections() made.
@@ -35,6 +37,7 @@ PaintingSettings paintingOf(const config::Sections& sections);
 OutputSettings outputOf(const config::Sections& sections);
 InputSettings inputOf(const config::Sections& sections);
 RuntimeSettings runtimeOf(const config::Sections& sections);
+ProcedureSettings procedureOf(const config::Sections& sections);
 StatusSettings statusOf(const config::Sections& sections);
 
 }  // namespace pleinair::app

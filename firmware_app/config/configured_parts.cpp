@@ -1,6 +1,7 @@
 #include "firmware_app/config/configured_parts.h"
 
 #include <algorithm>
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -11,6 +12,7 @@
 #include "config/suggestion.h"
 #include "firmware_app/config/configuration_sections.h"
 #include "firmware_app/config/control_text.h"
+#include "firmware_app/status_server/listen_address.h"
 #include "hal/cameras/registry.h"
 #include "hal/cameras/synthetic/synthetic_kind.h"
 #include "hal/error.h"
@@ -33,6 +35,38 @@ bool isUnlistedCamera(const std::string& source) {
            return kind->naming == hal::CameraNaming::kListed &&
                   source.starts_with(std::string(kind->name) + ":");
          });
+}
+
+/// Precondition of a secret: nobody else may read it.
+std::string readToken(const std::filesystem::path& file) {
+  constexpr std::size_t kLeast = 16;
+  constexpr std::size_t kMost = 200;
+  const auto fault = [&](hal::ErrorKind kind, std::string problem, std::string remedy) {
+    return hal::Failure({.kind = kind,
+                         .subject = file.string(),
+                         .problem = std::move(problem),
+                         .remedy = std::move(remedy)});
+  };
+  std::error_code failure;
+  const auto status = std::filesystem::status(file, failure);
+  std::ifstream stream(file);
+  if (!std::filesystem::is_regular_file(status) || !stream) {
+    throw fault(hal::ErrorKind::kNotFound, "cannot be read",
+                "openssl rand -hex 16 > FILE; chmod 600 FILE");
+  }
+  using std::filesystem::perms;
+  if ((status.permissions() & (perms::group_all | perms::others_all)) != perms::none) {
+    throw fault(hal::ErrorKind::kPermissionDenied, "may be read by others",
+                "chmod 600 " + file.string());
+  }
+  std::string token;
+  std::getline(stream, token);
+  const bool isPlain = std::ranges::all_of(token, [](char c) { return c > ' ' && c <= '~'; });
+  if (token.size() < kLeast || token.size() > kMost || !isPlain) {
+    throw fault(hal::ErrorKind::kInvalidInput, "holds no secret of 16 to 200 characters",
+                "openssl rand -hex 16 > " + file.string());
+  }
+  return token;
 }
 
 hal::FrameSize frameSizeOf(const config::PixelSize& size) {
@@ -147,6 +181,9 @@ std::optional<hal::KeyboardChoice> configuredKeyboards(const Configuration& conf
   auto choice = hal::KeyboardChoice::parsed(input.keyboards);
   if (!choice) return std::nullopt;
   choice->grabs = input.grab;
+  for (const MappedDevice& each : configuredInputMap(configuration).devices) {
+    choice->except.push_back(each.device);
+  }
   if (!choice->all) return choice->named.empty() ? std::nullopt : choice;
   bool isOnConsole = false;
   for (const std::filesystem::path& target : configuration.output().targets) {
@@ -158,8 +195,31 @@ std::optional<hal::KeyboardChoice> configuredKeyboards(const Configuration& conf
   return isOnConsole ? choice : std::nullopt;
 }
 
+InputMap configuredInputMap(const Configuration& configuration) {
+  const std::filesystem::path map = configuration.input().map;
+  return map == kNoFile ? InputMap{} : readInputMap(map);
+}
+
+std::string configuredToken(const Configuration& configuration, bool isPassed) {
+  const StatusSettings status = configuration.status();
+  if (status.tokenFile == kNoFile) return {};
+  const auto address = hal::orThrow(parseListen(status.listen));
+  if (!isPassed && address &&
+      !isLoopback(reinterpret_cast<const sockaddr*>(&address->storage))) {  // NOLINT(*-cast)
+    throw hal::Failure({.kind = hal::ErrorKind::kInvalidArgument,
+                        .subject = "status.token_file",
+                        .problem = "commands come from this machine alone, and the server listens "
+                                   "beyond it, at " +
+                                   status.listen,
+                        .remedy = "status.listen = \"127.0.0.1:9117\""});
+  }
+  return readToken(status.tokenFile);
+}
+
 std::unique_ptr<StatusServer> configuredStatusServer(const Configuration& configuration,
-                                                     StatusPages pages) {
+                                                     StatusPages pages,
+                                                     hal::FileDescriptor passed) {
+  if (passed) return startStatusServer(std::move(passed), std::move(pages));
   return startStatusServer(configuration.status().listen, std::move(pages));
 }
 

@@ -6,10 +6,12 @@
 
 #include "firmware_app/cli/path_collisions.h"
 #include "firmware_app/config/configuration.h"
+#include "firmware_app/config/input_map.h"
 #include "firmware_app/offline/painting.h"
 #include "firmware_app/status_server/status_server.h"
 #include "hal/camera.h"
 #include "hal/cameras/synthetic/synthetic_camera.h"
+#include "hal/file_descriptor.h"
 #include "hal/keyboards/keyboards.h"
 #include "pipeline/scene/description/scene.h"
 
@@ -44,10 +46,20 @@ hal::StreamRequest streamRequestOf(const CameraSettings& camera);
 /// console (hal::OutputTraits::isOnConsole) and no window.
 std::optional<hal::KeyboardChoice> configuredKeyboards(const Configuration& configuration);
 
-/// [status]'s server, started; null where it is off. Throws hal::Failure as
-/// startStatusServer().
+/// [input]'s map; empty where there is none. Throws as readInputMap().
+InputMap configuredInputMap(const Configuration& configuration);
+
+/// [status]'s secret for commands; empty where none are taken. Throws hal::Failure for a file that
+/// cannot be read, that others may read, or whose secret is short (16 to 200 characters without
+/// spaces), and where the server listens beyond this machine. `isPassed`: the server's socket came
+/// from a service manager.
+std::string configuredToken(const Configuration& configuration, bool isPassed);
+
+/// The status server, started: at `passed`, a socket from the service manager, where there is one,
+/// else as [status] says; null where that is off. Throws hal::Failure as startStatusServer().
 std::unique_ptr<StatusServer> configuredStatusServer(const Configuration& configuration,
-                                                     StatusPages pages);
+                                                     StatusPages pages,
+                                                     hal::FileDescriptor passed = {});
 
 /// The files that the configuration and the scene were read from: nothing may be written over them.
 std::vector<NamedPath> configuredFiles(const Configuration& configuration,

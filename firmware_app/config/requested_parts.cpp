@@ -169,7 +169,9 @@ std::vector<RequestedPart> requestedParts(const Configuration& configuration) {
                    .value = painting.style,
                    .problem = thrownBy([&] { configuredPainting(configuration, {}); })});
   if (const std::string listen = configuration.status().listen; listen != kNoServer) {
-    const StatusPages pages{.json = [] { return std::string(); },
+    const StatusPages pages{.page = [] { return std::string(); },
+                            .picture = [] { return std::string(); },
+                            .json = [] { return std::string(); },
                             .metrics = [] { return std::string(); },
                             .healthy = [] { return false; }};
     RequestedPart part{.part = "status", .value = listen, .isDevice = true};

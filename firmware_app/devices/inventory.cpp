@@ -22,6 +22,7 @@ DeviceCameras listDeviceCameras(std::span<const hal::SelectableBackend> backends
 std::vector<ListedKeyboard> listKeyboards(hal::KeyboardDevices& devices) {
   std::vector<ListedKeyboard> all;
   for (hal::KeyboardDescription& each : devices.list()) {
+    if (!each.hasKeys) continue;
     auto opened = devices.open(each.node);
     std::optional<hal::Error> problem;
     if (!opened) problem = std::move(opened.error());

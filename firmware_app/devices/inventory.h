@@ -54,8 +54,8 @@ std::string asText(const Inventory& inventory);
 
 /// For programs: {"cameras": [{"backend", "id", "name", "serial", "node", "formats": [{"layout",
 /// "width", "height", "rates", "read"} …], "problem"} …], "outputs": [{"kind", "target", "name",
-/// "formats", "busy", "problem"} …], "keyboards": [{"node", "name", "keyboard", "problem"} …],
-/// "problems": [text …]}; "problem" is null where there is none.
+/// "formats", "busy", "scan_out", "problem"} …], "keyboards": [{"node", "name", "keyboard",
+/// "problem"} …], "problems": [text …]}; "problem" is null where there is none.
 std::string asJson(const Inventory& inventory);
 
 }  // namespace pleinair::app

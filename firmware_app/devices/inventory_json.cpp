@@ -36,9 +36,13 @@ Json cameraOf(const hal::CameraDescription& camera) {
 }
 
 Json outputOf(const std::string& kind, const hal::OutputDescription& output) {
-  return {{"kind", kind},          {"target", output.target},
-          {"name", output.name},   {"formats", output.formats},
-          {"busy", output.isBusy}, {"problem", problemOf(output.problem)}};
+  return {{"kind", kind},
+          {"target", output.target},
+          {"name", output.name},
+          {"formats", output.formats},
+          {"busy", output.isBusy},
+          {"scan_out", output.scanOut.empty() ? Json() : Json(output.scanOut)},
+          {"problem", problemOf(output.problem)}};
 }
 
 Json keyboardOf(const ListedKeyboard& keyboard) {

@@ -63,7 +63,11 @@ std::string cameraText(const hal::CameraDescription& camera) {
     text += fmt::format("    {:<5} {}{}\n", layout.layout, fmt::join(layout.sizes, "; "),
                         layout.isSupported ? "" : " (not supported)");
   }
-  if (!camera.problem && camera.modes.empty()) text += "    offers no formats\n";
+  if (!camera.areModesKnown) {
+    text += "    tells its formats when it is opened\n";
+  } else if (!camera.problem && camera.modes.empty()) {
+    text += "    offers no formats\n";
+  }
   return text;
 }
 
@@ -88,6 +92,7 @@ std::string outputText(const hal::OutputDescription& output) {
   } else if (!output.formats.empty()) {
     text += fmt::format("  {}", fmt::join(output.formats, " "));
   }
+  if (!output.scanOut.empty()) text += "\n    " + output.scanOut;
   return text + "\n";
 }
 

@@ -19,6 +19,7 @@ std::string nameOf(const hal::CameraDescription& camera) {
 }
 
 bool isUsable(const hal::CameraDescription& camera) {
+  if (!camera.problem && !camera.areModesKnown) return true;
   return !camera.problem && std::ranges::any_of(camera.modes, &hal::CameraMode::isSupported);
 }
 

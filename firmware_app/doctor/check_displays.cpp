@@ -30,8 +30,37 @@ Finding checkDisplays(const Probes& probes) {
     return finding;
   }
   finding.verdict = Verdict::kOk;
-  finding.text = fmt::format("{}, {}", plugged->target,
-                             plugged->formats.empty() ? "no modes" : plugged->formats.front());
+  // Copying is no fault, and mostly the driver's choice.
+  finding.text = fmt::format("{}, {}; {}", plugged->target,
+                             plugged->formats.empty() ? "no modes" : plugged->formats.front(),
+                             textOf(probes.scanOut()));
+  return finding;
+}
+
+Finding checkDisplayTiming(const Probes& probes) {
+  Finding finding{.check = "display timing", .verdict = Verdict::kOk};
+  const hal::Result<hal::DisplayTiming> timing = probes.displayTiming();
+  if (!timing) {
+    using enum hal::ErrorKind;
+    const hal::Error& error = timing.error();
+    // What checkDisplays() has said already.
+    const bool isNoDisplay = error.kind == kNotFound || error.kind == kDeviceLost ||
+                             error.kind == kPermissionDenied || error.kind == kBusy;
+    if (!isNoDisplay) finding.verdict = Verdict::kWarning;
+    finding.text = isNoDisplay ? "there is no display to ask" : error.problem;
+    if (!isNoDisplay) finding.remedy = error.remedy;
+    return finding;
+  }
+  finding.text =
+      fmt::format("{}x{} at {:.2f} Hz, of which each refresh is counted", timing->size.width,
+                  timing->size.height, 1.0 / hal::toSeconds(timing->period));
+  if (timing->hasVblank) return finding;
+  finding.verdict = Verdict::kWarning;
+  finding.text = fmt::format(
+      "{}x{} at {:.2f} Hz by the clock: the card's driver has no vertical blanking, so that when a "
+      "picture was seen is not known, and it may tear",
+      timing->size.width, timing->size.height, 1.0 / hal::toSeconds(timing->period));
+  finding.remedy = "show pictures on a card that is not a virtual one, or live with it";
   return finding;
 }
 

@@ -29,6 +29,17 @@ Finding checkGraphics(const Probes& probes) {
   return finding;
 }
 
+/// Both ways give the same picture: that frames are uploaded is no fault.
+Finding checkFrameImport(const Probes& probes) {
+  const FrameImportVerdict verdict = probes.frameImport();
+  const double ms = hal::toMilliseconds(verdict.took);
+  return {.check = "camera frames",
+          .text = verdict.isImported
+                      ? fmt::format("the GPU reads them in shared memory ({}; trial: {:.0f} ms)",
+                                    verdict.reason, ms)
+                      : fmt::format("are uploaded: {} (trial: {:.0f} ms)", verdict.reason, ms)};
+}
+
 Finding checkRenderNodes(const Probes& probes) {
   Finding finding{.check = "render nodes"};
   for (const std::filesystem::path& node : probes.list("/dev/dri")) {

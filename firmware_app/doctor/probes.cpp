@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "hal/outputs/display/display_output.h"
+#include "pipeline/gpu/shared_displays.h"
 
 namespace pleinair::app::doctor {
 namespace {
@@ -58,7 +59,9 @@ std::uint64_t softLimit(int resource) {
 
 hal::Result<gpu::ContextInfo> makeContext() {
   try {
-    return gpu::EglContext().info();
+    const gpu::ContextInfo info = gpu::EglContext().info();
+    gpu::terminateDisplays();  // a software driver that has a card open may be its master
+    return info;
   } catch (const hal::Failure& error) {
     return tl::unexpected(error.error());
   }
@@ -73,10 +76,13 @@ Probes systemProbes() {
           .freeBytes = freeBytesOf,
           .limit = softLimit,
           .graphics = makeContext,
+          .frameImport = tryFrameImport,
           .cameras = {},
           .loopbacks = [] { return hal::listLoopbacks(); },
           .displays = [] { return hal::listDisplays(); },
           .displayProblem = [] { return hal::displayKind().problemOf("display"); },
+          .displayTiming = [] { return hal::displayTiming("display"); },
+          .scanOut = [] { return tryScanOut("display"); },
           .keyboards = [] { return listKeyboards(hal::kernelKeyboards()); },
           .configurationError = {},
           .snapshots = {}};

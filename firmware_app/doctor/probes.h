@@ -8,8 +8,11 @@
 #include <vector>
 
 #include "firmware_app/devices/inventory.h"
+#include "firmware_app/doctor/frame_import_trial.h"
+#include "firmware_app/doctor/scan_out_trial.h"
 #include "hal/error.h"
 #include "hal/output_kind.h"
+#include "hal/outputs/display/display_output.h"
 #include "hal/outputs/v4l2_loopback/loopback_devices.h"
 #include "pipeline/gpu/egl_context.h"
 
@@ -37,11 +40,19 @@ struct Probes {
   std::function<std::uint64_t(int)> limit;
   /// Makes a context and lets it go.
   std::function<hal::Result<gpu::ContextInfo>()> graphics;
+  /// Tries whether the GPU reads memory that it shares with a camera.
+  std::function<FrameImportVerdict()> frameImport;
   std::function<DeviceCameras()> cameras;
+  /// Of camera.size and camera.rate; null: not known.
+  std::function<double()> askedPixelsPerSecond;
   std::function<std::vector<hal::LoopbackDevice>()> loopbacks;
   std::function<hal::OutputListing()> displays;
   /// Why the first display that is plugged in could not be taken now.
   std::function<std::optional<hal::Error>()> displayProblem;
+  /// When the first display that is plugged in shows pictures.
+  std::function<hal::Result<hal::DisplayTiming>()> displayTiming;
+  /// How pictures would reach the memory of the first display that is plugged in.
+  std::function<ScanOutVerdict()> scanOut;
   std::function<std::vector<ListedKeyboard>()> keyboards;
   /// The error of the configuration, in a line; nothing where it is valid.
   std::function<std::optional<std::string>()> configurationError;
@@ -50,7 +61,8 @@ struct Probes {
   std::filesystem::path snapshots;  ///< the folder that snapshots go to
 };
 
-/// This machine's, but for `cameras`, `configurationError`, `requested` and `snapshots`.
+/// This machine's, but for `cameras`, `askedPixelsPerSecond`, `configurationError`, `requested` and
+/// `snapshots`.
 Probes systemProbes();
 
 }  // namespace pleinair::app::doctor

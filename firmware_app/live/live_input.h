@@ -2,8 +2,11 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "firmware_app/live/display_captions.h"
+#include "firmware_app/live/live_caption.h"
 #include "firmware_app/live/live_controls.h"
 #include "firmware_app/live/live_job.h"
 #include "firmware_app/live/live_keys.h"
@@ -11,6 +14,8 @@
 #include "firmware_app/live/live_tuning.h"
 #include "firmware_app/live/live_window.h"
 #include "firmware_app/live/presence.h"
+#include "firmware_app/live/seen_tags.h"
+#include "firmware_app/live/step_inputs.h"
 #include "hal/clock.h"
 #include "hal/console/virtual_terminal.h"
 #include "pipeline/runtime/live_pipeline.h"
@@ -28,7 +33,10 @@ class LiveInput {
   LiveInput(const LiveInput&) = delete;
   LiveInput& operator=(const LiveInput&) = delete;
 
-  void openWindow(hal::Window& window) { window_.emplace(window, tuning_, *job_.clock); }
+  /// Does nothing where one is open.
+  void openWindow(hal::Window& window) {
+    if (!window_) window_.emplace(window, tuning_, *job_.clock);
+  }
   /// Keyboards may have come or gone. Any thread.
   void devicesChanged();
 
@@ -36,11 +44,18 @@ class LiveInput {
   /// `movedAt`: the last movement before the camera. Returns whether our console has come to the
   /// front: displays that could not be opened may be free.
   bool poll(runtime::LivePipeline* pipeline, std::optional<hal::TimePoint> movedAt);
-  /// Handles the window's keys and updates its caption; nothing where there is none. Errors: those
-  /// of hal::Window::redraw().
-  hal::Result<void> updateWindow(runtime::LivePipeline& pipeline, double framesPerSecond);
-  /// Shows a notice in the window's caption.
+  /// Handles the window's keys and updates its caption; nothing where there is none. `pipeline`:
+  /// null until it is complete. Errors: those of hal::Window::redraw().
+  hal::Result<void> updateWindow(runtime::LivePipeline* pipeline, double framesPerSecond);
+  /// Shows on bare displays what a window would show in its caption: an answer to each key, and the
+  /// step of a procedure. `displays` outlive this.
+  void updateDisplays(const std::vector<runtime::OutputStage*>& displays);
+  /// Replaces the parameters that keys have tuned, from the next frame on.
+  void setParameters(const LiveParameters& parameters);
+  /// Shows a notice in the window's caption, and on bare displays where somebody is at the keys.
   void notify(const std::string& text);
+  /// Takes what a frame shows: command cards.
+  void see(const SeenTags& tags);
   /// Whether another console or program has a display: keys are for that one.
   void noteOutputs(const std::vector<runtime::OutputStage::Status>& outputs);
   /// Gives the console back. Afterwards only destruction is allowed.
@@ -49,11 +64,16 @@ class LiveInput {
   bool wantsToQuit() const { return wantsToQuit_; }
   /// Whether a snapshot was asked for since the last call.
   bool takeSnapshotRequest();
+  /// A look file to be saved, or the command line to be shown, where one was asked for since the
+  /// last call.
+  std::optional<std::string> takeLookFile();
+  std::optional<std::string> takeCommandLine();
 
  private:
   void takeConsole();
   bool followConsole();
   bool handleKeys(runtime::LivePipeline* pipeline);
+  bool handleSteps();
   void handle(const LiveRequests& requests);
 
   const LiveJob& job_;
@@ -63,10 +83,17 @@ class LiveInput {
   std::unique_ptr<hal::VirtualTerminal> terminal_;
   std::optional<LiveWindow> window_;
   std::optional<LiveKeys> keys_;
+  LiveCaption displayCaption_;
+  DisplayCaptions displayCaptions_;
+  std::optional<hal::TimePoint> keyPressed_;  ///< on a keyboard of keys_
+  hal::TimePoint displaysCaptioned_;
+  std::optional<StepInputs> steps_;  ///< beside keys, where there is a procedure
   Presence presence_;
   hal::TimePoint captioned_;
   bool wantsToQuit_ = false;
   bool wantsSnapshot_ = false;
+  bool wantsLookFile_ = false;
+  bool wantsCommandLine_ = false;
   bool isDisplayTaken_ = false;
 };
 

@@ -23,6 +23,8 @@ LiveKeys::Taken LiveKeys::take() {
     taken.requests.tuned = true;
     if (request == LiveTuning::Request::kQuit) taken.requests.quit = true;
     if (request == LiveTuning::Request::kSnapshot) taken.requests.snapshot = true;
+    if (request == LiveTuning::Request::kSaveLook) taken.requests.saveLook = true;
+    if (request == LiveTuning::Request::kCommandLine) taken.requests.commandLine = true;
     if (tuning_.showsHelp() && !showedHelp) taken.state.push_back(LiveTuning::help());
   }
   if (taken.requests.tuned) {

@@ -51,26 +51,44 @@ LiveOutputs::LiveOutputs(const LiveJob& job, runtime::LivePipeline& pipeline,
     orThrow(checkOutputFolder(name));  // now, because the camera may come much later
     opened_.push_back(orThrow(job.openOutput(name)));
   }
+  isStarted_.resize(opened_.size());
 }
 
 bool LiveOutputs::isScreen(const std::string& target) const {
   return job_.showsWaiting && orThrow(hal::outputKindOf(target))->traits.showsWaiting;
 }
 
+bool LiveOutputs::isOnConsole(const std::string& target) const {
+  return orThrow(hal::outputKindOf(target))->traits.isOnConsole;
+}
+
 void LiveOutputs::startScreens() {
   for (std::size_t i = 0; i < opened_.size(); ++i) {
-    if (isScreen(job_.outputs[i])) screens_.add(startOutput(i));
+    if (isScreen(job_.outputs[i]) && isOnConsole(job_.outputs[i])) startOutput(i);
   }
   if (screens_.isEmpty()) return;
   update({.camera = pipeline_.capture().status()});
   screens_.showFirst(*job_.clock);
 }
 
+void LiveOutputs::startWindows() {
+  for (std::size_t i = 0; i < opened_.size(); ++i) {
+    if (isScreen(job_.outputs[i]) && !isStarted_[i]) startOutput(i);
+  }
+}
+
+void LiveOutputs::stepWindows() {
+  for (runtime::OutputStage* each : stepped_) each->step();
+}
+
 void LiveOutputs::start(const hal::StreamFormat& stream) {
   stream_ = stream;
+  isStreamKnown_ = true;
   reconfigureScreens();
+  // That something else is waited for now is said before it takes all of the processor.
+  update({.camera = pipeline_.capture().status()});
   for (std::size_t i = 0; i < opened_.size(); ++i) {
-    if (!isScreen(job_.outputs[i])) startOutput(i);
+    if (!isStarted_[i]) startOutput(i);
   }
 }
 
@@ -80,8 +98,12 @@ void LiveOutputs::reconfigureScreens() {
   for (runtime::OutputStage* each : stages) each->reconfigure(request());
   const hal::TimePoint deadline = job_.clock->now() + kModePatience;
   const auto isDone = [](const runtime::OutputStage* each) { return each->isReconfigured(); };
-  while (!std::ranges::all_of(stages, isDone) && job_.clock->now() < deadline &&
-         Interrupt::received() == 0) {
+  for (;;) {
+    stepWindows();
+    if (std::ranges::all_of(stages, isDone) || job_.clock->now() >= deadline ||
+        Interrupt::received() != 0) {
+      return;
+    }
     job_.clock->sleepUntil(job_.clock->now() + kModePollInterval);
   }
 }
@@ -94,15 +116,17 @@ hal::OutputRequest LiveOutputs::request() const {
   return {.size = pictureSize(), .framePeriod = stream_.framePeriod};
 }
 
-runtime::OutputStage& LiveOutputs::startOutput(std::size_t index) {
+void LiveOutputs::startOutput(std::size_t index) {
   std::unique_ptr<hal::Output>& opened = opened_.at(index);
   const std::string& target = job_.outputs.at(index);
   const hal::OutputKind& kind = *orThrow(hal::outputKindOf(target));
   hal::StreamFormat stream = stream_;
-  if (isScreen(target)) stream.framePeriod = kShortestPeriod;
+  if (!isStreamKnown_) stream.framePeriod = kShortestPeriod;
   runtime::OutputStageOptions options = outputRules(target, job_.openOutput, job_.runtime, stream);
   options.request = request();
-  options.keepsLastFrame = isScreen(target);
+  // The page for people shows that of the first.
+  options.keepsLastFrame = isScreen(target) || (job_.servesPictures && index == 0);
+  options.latency = hal::fromMilliseconds(job_.runtime.latencyMs);
   options.limit = job_.options.frames;
   options.log = log_;
   options.logNumber = index;
@@ -119,7 +143,9 @@ runtime::OutputStage& LiveOutputs::startOutput(std::size_t index) {
   if (auto* window = dynamic_cast<hal::Window*>(opened.get())) window_ = window;
   runtime::OutputStage& output = pipeline_.addOutput(std::move(opened), format, std::move(options));
   if (kind.traits.isOnMainThread) stepped_.push_back(&output);
-  return output;
+  if (isOnConsole(target)) displays_.push_back(&output);
+  if (isScreen(target)) screens_.add(output, isOnConsole(target));
+  isStarted_[index] = true;
 }
 
 bool LiveOutputs::isUpdateDue() const {
@@ -135,6 +161,7 @@ void LiveOutputs::update(const LiveProgress& progress) {
   updated_ = job_.clock->now();
   screens_.update(progress);
   reportKeeping();
+  reportScanOut();
 }
 
 void LiveOutputs::finish() {
@@ -147,6 +174,35 @@ void LiveOutputs::reportKeeping() {
   if (!failure) return;
   reporter_.interrupt();
   spdlog::warn("the last painting: {}", failure->message());
+}
+
+std::vector<OutputProgress> LiveOutputs::progress() const {
+  const std::vector<runtime::OutputStage*> screens = screens_.stages();
+  std::vector<OutputProgress> progress;
+  for (std::size_t i = 0; i < pipeline_.outputCount(); ++i) {
+    const runtime::OutputStage& output = pipeline_.output(i);
+    const bool isScreen = std::ranges::find(screens, &output) != screens.end();
+    progress.push_back(progressOf(output.status(), isScreen));
+  }
+  return progress;
+}
+
+/// How pictures reach the memory of displays, once it is found out and when it changes.
+void LiveOutputs::reportScanOut() {
+  using Path = runtime::ScanOut::Path;
+  for (const runtime::OutputStage* each : screens_.stages()) {
+    const runtime::ScanOut now = each->status().scanOut;
+    runtime::ScanOut& told = scanOut_[each->name()];
+    if (now.path == told.path && now.reason == told.reason) continue;
+    told = now;
+    reporter_.interrupt();
+    if (now.path == Path::kDirect) {
+      spdlog::info("{}: the GPU draws straight into the display's memory, {} ({:.0f} ms)",
+                   each->name(), now.reason, hal::toMilliseconds(now.took));
+    } else {
+      spdlog::info("{}: pictures are copied: {}", each->name(), now.reason);
+    }
+  }
 }
 
 bool LiveOutputs::haveEnded() const {

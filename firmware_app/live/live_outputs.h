@@ -2,12 +2,14 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "firmware_app/live/live_job.h"
 #include "firmware_app/live/live_reporter.h"
+#include "firmware_app/live/presentation_watch.h"
 #include "firmware_app/live/screens.h"
 #include "hal/camera.h"
 #include "hal/output.h"
@@ -26,10 +28,15 @@ class LiveOutputs {
   LiveOutputs(const LiveJob& job, runtime::LivePipeline& pipeline, LiveReporter& reporter,
               runtime::FrameLog* log);
 
-  /// Starts the screens, for the stream that the job asks for, as the camera's is not known yet;
-  /// each has shown its first picture, has failed, or takes longer than a second. Throws
-  /// hal::Failure.
+  /// Starts the screens without a desktop, for the stream that the job asks for, as the camera's is
+  /// not known yet; each has shown its first picture, has failed, or takes longer than a second.
+  /// Throws hal::Failure.
   void startScreens();
+  /// Starts windows in the same way, once the camera is late: they show what is waited for, at
+  /// update() and stepWindows(). Throws hal::Failure.
+  void startWindows();
+  /// Hands over what is due at windows, before frames flow.
+  void stepWindows();
   /// Starts the others, for the camera's stream, which the screens take too. Throws hal::Failure.
   void start(const hal::StreamFormat& stream);
 
@@ -43,7 +50,13 @@ class LiveOutputs {
   /// Keeps the last painting of a screen. The stages still exist.
   void finish();
 
+  /// Displays without a desktop, which were started.
+  const std::vector<runtime::OutputStage*>& displays() const { return displays_; }
   std::vector<runtime::OutputStage*> screens() const { return screens_.stages(); }
+  /// What each output has shown so far.
+  std::vector<OutputProgress> progress() const;
+  /// Screens::renewAfter().
+  void renewWaitingAfter(hal::Duration interval) { screens_.renewAfter(interval); }
   /// Those that the main thread steps: the window.
   const std::vector<runtime::OutputStage*>& stepped() const { return stepped_; }
   /// Null where there is none.
@@ -55,19 +68,25 @@ class LiveOutputs {
 
  private:
   bool isScreen(const std::string& target) const;
-  runtime::OutputStage& startOutput(std::size_t index);
+  bool isOnConsole(const std::string& target) const;
+  void startOutput(std::size_t index);
   void reconfigureScreens();
   hal::OutputRequest request() const;
   void reportKeeping();
+  void reportScanOut();
 
   const LiveJob& job_;
   runtime::LivePipeline& pipeline_;
   LiveReporter& reporter_;
   runtime::FrameLog* log_;
   hal::StreamFormat stream_;
+  bool isStreamKnown_ = false;
   Screens screens_;
   std::vector<std::unique_ptr<hal::Output>> opened_;  ///< until the pipeline owns them
+  std::vector<bool> isStarted_;                       ///< of the same outputs
   std::vector<runtime::OutputStage*> stepped_;
+  std::vector<runtime::OutputStage*> displays_;
+  std::map<std::string, runtime::ScanOut> scanOut_;  ///< as reported, by the outputs' names
   hal::Window* window_ = nullptr;
   std::atomic<bool> haveDisplaysChanged_ = false;
   hal::TimePoint updated_;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -16,9 +17,11 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "config/config_error.h"
 #include "firmware_app/cli/compile_notice.h"
 #include "firmware_app/cli/exit_status.h"
 #include "firmware_app/cli/interrupt.h"
+#include "firmware_app/cli/reload_signal.h"
 #include "firmware_app/cli/stale_parts.h"
 #include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/config/camera_selection.h"
@@ -26,10 +29,14 @@
 #include "firmware_app/live/live_controls.h"
 #include "firmware_app/live/live_input.h"
 #include "firmware_app/live/live_outputs.h"
+#include "firmware_app/live/live_overlay.h"
 #include "firmware_app/live/live_painter.h"
 #include "firmware_app/live/live_reporter.h"
 #include "firmware_app/live/runtime_rules.h"
+#include "firmware_app/live/service_reporter.h"
 #include "firmware_app/live/snapshot_saver.h"
+#include "firmware_app/live/status_page.h"
+#include "firmware_app/live/thumbnail.h"
 #include "firmware_app/scene/scene_warnings.h"
 #include "hal/supervisor/camera_supervisor.h"
 #include "hal/supervisor/hotplug_monitor.h"
@@ -46,6 +53,8 @@ using namespace std::chrono_literals;
 /// How often the main thread polls keys, signals and the state of the pipeline.
 constexpr hal::Duration kPollInterval = 10ms;
 constexpr hal::Duration kReportInterval = 100ms;
+/// A camera that comes sooner is not waited for in a window: it opens with the camera's size.
+constexpr hal::Duration kWindowPatience = 1s;
 /// Part of the two seconds that ending may take; the rest is for the exit itself.
 constexpr hal::Duration kStopPatience = 1500ms;
 
@@ -55,13 +64,20 @@ class LivePainting {
  public:
   explicit LivePainting(const LiveJob& job)
       : job_(job),
-        controls_(startParameters(job.options)),
+        controls_({job.options.style, startParameters(job.options)}),
         reporter_(qualityNames()),
         input_(job, controls_, reporter_),
         supervisor_(*job.selector, *job.clock, {}, job.request),
         pipeline_(supervisor_, *job.clock),
         outputs_(job, pipeline_, reporter_, openFrameLog()),
-        saver_(job.snapshots) {}
+        saver_(job.snapshots) {
+    if (job_.procedure != nullptr) {
+      machine_ = machinePlaceOf(job_.scene, job_.procedure->procedure());
+    }
+    if (!job.serviceManager) return;
+    service_.emplace(*job.serviceManager);
+    outputs_.renewWaitingAfter(service_->renewal());
+  }
   ~LivePainting() { stopThreads(); }
   LivePainting(const LivePainting&) = delete;
   LivePainting& operator=(const LivePainting&) = delete;
@@ -72,6 +88,7 @@ class LivePainting {
     } catch (...) {
       // Threads end here, where the error is known that decides the exit status should one hang.
       stopThreads();
+      writeFrameLog();
       throw;
     }
     finish();
@@ -124,23 +141,90 @@ class LivePainting {
 
   bool isToEnd() const { return Interrupt::received() != 0 || input_.wantsToQuit(); }
 
+  /// Shows in windows what is waited for. Returns false where there is nothing left to show it in.
+  bool stepWindows() {
+    if (outputs_.stepped().empty()) return true;
+    outputs_.stepWindows();
+    if (hal::Window* window = outputs_.window()) input_.openWindow(*window);
+    const auto drawn = input_.updateWindow(pipeline(), 0.0);
+    if (drawn || pipeline_.outputCount() > 1) return true;
+    failure_ = drawn.error();
+    return false;
+  }
+
   /// Follows the people and what the screens wait for.
   void attend() {
     if (input_.poll(pipeline(), pipeline_.capture().movedAt())) outputs_.devicesChanged();
+    input_.updateDisplays(outputs_.displays());
+    followStyle();
+    if (job_.reload && ReloadSignal::take()) reload();
+    if (service_ && service_->isDue(job_.clock->now())) reportToService();
     if (!outputs_.isUpdateDue()) return;
-    const auto painting =
-        pipeline() == nullptr ? runtime::PaintStage::Status() : pipeline_.paint().status();
+    const auto painting = paintStatus();
     outputs_.update({.camera = pipeline_.capture().status(),
                      .hasBegun = hasBegun_,
                      .hasPainter = painting.hasPainter,
+                     .isRenewing = painting.isRenewing,
                      .painted = painting.painted});
+  }
+
+  /// Another style is another painter, which compiles its shaders first.
+  void followStyle() {
+    if (pipeline() == nullptr) return;
+    const std::string style = controls_.parameters()->style;
+    if (std::exchange(style_, style) == style) return;
+    pipeline_.paint().renew();
+    notify("preparing to paint in the style " + style, true);
+  }
+
+  runtime::PaintStage::Status paintStatus() {
+    return pipeline() == nullptr ? runtime::PaintStage::Status() : pipeline_.paint().status();
+  }
+
+  void reportToService() {
+    const auto painting = paintStatus();
+    const runtime::RuntimeStatus status = statusNow();
+    const bool isStreaming = status.camera.state == hal::CameraState::kStreaming;
+    service_->update({.outputs = outputs_.progress(),
+                      .expectsPaintings = hasBegun_ && isStreaming && painting.hasPainter,
+                      .painted = painting.painted},
+                     hasBegun_ ? runtime::statusLine(status, qualityNames()) : startingText(status),
+                     job_.clock->now());
+  }
+
+  static std::string startingText(const runtime::RuntimeStatus& status) {
+    return status.camera.format ? "preparing to paint" : status.camera.reason;
+  }
+
+  /// Applies the parameters of the configuration as it is now; if it is wrong, the last ones stay.
+  void reload() {
+    if (service_) service_->reloading(job_.clock->now());
+    std::string problem;
+    try {
+      const Reload next = job_.reload();
+      input_.setParameters({next.painting.style, startParameters(next.painting)});
+      const std::string later =
+          next.later.empty() ? ""
+                             : fmt::format("; at the next start: {}", fmt::join(next.later, ", "));
+      notify("the configuration was read again" + later, true);
+    } catch (const hal::Failure& error) {
+      problem = error.what();
+    } catch (const config::ConfigError& error) {
+      problem = error.what();
+    }
+    if (!problem.empty()) {
+      problem = "the last configuration stays in force: " + problem;
+      notify(problem, false);
+    }
+    if (service_) service_->reloaded(problem);
   }
 
   /// Returns false if a signal ended the wait.
   bool awaitStream() {
     for (;;) {
       attend();
-      if (isToEnd()) return false;
+      if (isToEnd() || !stepWindows()) return false;
+      if (job_.clock->now() - began_ >= kWindowPatience) outputs_.startWindows();
       const runtime::CaptureStage::Status camera = pipeline_.capture().status();
       if (camera.format) {
         stream_ = *camera.format;
@@ -177,6 +261,8 @@ class LivePainting {
       for (const std::string& notice : stalePartNotices(target)) spdlog::warn("{}", notice);
     }
     if (hal::Window* window = outputs_.window()) input_.openWindow(*window);
+    makeOverlay();
+    style_ = controls_.parameters()->style;
     pipeline_.makePaintStage([this](const auto& formats) { return makePainter(formats); },
                              paintRules(job_.runtime, stream_));
     threads_->startPainter();
@@ -185,6 +271,12 @@ class LivePainting {
 
   /// Any thread. Before the camera's first frame there are neither outputs nor a painter.
   runtime::RuntimeStatus statusNow() {
+    runtime::RuntimeStatus status = pipelineStatus();
+    if (job_.procedure != nullptr) status.procedure = job_.procedure->status();
+    return status;
+  }
+
+  runtime::RuntimeStatus pipelineStatus() {
     if (pipeline() != nullptr) return pipeline_.status();
     runtime::RuntimeStatus status{.uptime = job_.clock->now() - waitingSince_,
                                   .camera = pipeline_.capture().status(),
@@ -198,29 +290,52 @@ class LivePainting {
   }
 
   StatusPages statusPages() {
-    return {.json = [this] { return runtime::statusJson(statusNow(), qualityNames()); },
+    return {.page =
+                [this] {
+                  return statusPage(statusNow(), controls_.parameters()->style, qualityNames());
+                },
+            .picture = [this] { return thumbnail(); },
+            .json = [this] { return runtime::statusJson(statusNow(), qualityNames()); },
             .metrics = [this] { return runtime::statusMetrics(statusNow(), qualityNames()); },
             .healthy = [this] { return statusNow().isHealthy(); }};
   }
 
+  /// A small picture of what the first output shows, as a JPEG; empty where there is none yet. The
+  /// server's thread.
+  std::string thumbnail() {
+    if (pipeline() == nullptr) return {};
+    for (std::size_t i = 0; i < pipeline_.outputCount(); ++i) {
+      const runtime::OutputStage& output = pipeline_.output(i);
+      if (const auto frame = output.lastFrame()) {
+        return orThrow(thumbnailJpeg(*frame, output.format().quarterTurns));
+      }
+    }
+    return {};
+  }
+
   std::unique_ptr<runtime::FramePainter> makePainter(
       const std::vector<hal::OutputFormat>& formats) {
-    const PainterOptions options{.pictureSize = outputs_.pictureSize(),
-                                 .scene = job_.scene,
-                                 .style = job_.options.style,
-                                 .tracksTags = !job_.scene.tags.empty(),
-                                 .shaderDirectory = job_.options.shaderDirectory,
-                                 .passTiming = gpu::PassTiming::kSampled,
-                                 .expectedFormat = stream_.frame,
-                                 .qualityLevels = job_.runtime.quality != qualityNames().front(),
-                                 .isCancelled = cancelledBySignal()};
-    return std::make_unique<LivePainter>(options, formats, controls_);
+    const std::shared_ptr<const LiveParameters> start = controls_.parameters();
+    const PainterOptions options{
+        .pictureSize = outputs_.pictureSize(),
+        .scene = job_.scene,
+        .style = start->style,
+        .tracksTags = !job_.scene.tags.empty() || !job_.inputs.cards.empty(),
+        .shaderDirectory = job_.options.shaderDirectory,
+        .passTiming = gpu::PassTiming::kSampled,
+        .expectedFormat = stream_.frame,
+        .qualityLevels = job_.runtime.quality != qualityNames().front(),
+        .overlay = job_.procedure != nullptr,
+        .machine = job_.machine,
+        .isCancelled = [this] { return isStopping_ || isSignalled_(); }};
+    return std::make_unique<LivePainter>(options, formats, controls_, start, machine_);
   }
 
   bool awaitPainter() {
     while (!isToEnd()) {
       if (threads_->isPainterReady()) return true;
       attend();
+      if (!stepWindows()) return false;
       job_.clock->sleepUntil(job_.clock->now() + kPollInterval);
     }
     return false;
@@ -247,7 +362,9 @@ class LivePainting {
     }
     updateWindow();
     attend();
+    attendProcedure();
     handleSnapshots();
+    handleTuning();
     report();
     if (stepped.empty()) {
       job_.clock->sleepUntil(wake);
@@ -259,9 +376,42 @@ class LivePainting {
   void updateWindow() {
     if (outputs_.stepped().empty()) return;
     const double rate = outputs_.stepped().front()->status().perSecond;
-    const auto drawn = input_.updateWindow(pipeline_, rate);
+    const auto drawn = input_.updateWindow(&pipeline_, rate);
     // If there are other outputs, the window alone fails, at its next image.
     if (!drawn && pipeline_.outputCount() == 1) failure_ = drawn.error();
+  }
+
+  void makeOverlay() {
+    if (job_.procedure == nullptr) return;
+    const scene::Model* machine =
+        job_.machine ? job_.scene.models[*job_.machine].model.get() : nullptr;
+    overlay_.emplace(machine, job_.procedureFolder, outputs_.pictureSize(), job_.showsInset);
+    controls_.setOverlay(overlay_->update(job_.procedure->shown(), job_.clock->now()));
+  }
+
+  /// Steps that keys have made, and stills that they want.
+  void attendProcedure() {
+    if (job_.procedure == nullptr) return;
+    if (const auto tags = controls_.takeTags()) {
+      input_.see(*tags);
+      job_.procedure->locate(poseQualityOf(machine_, *tags));
+    }
+    job_.procedure->poll();
+    if (job_.procedure->takeStillRequest()) controls_.requestStill();
+    if (const auto still = controls_.takeStill()) {
+      job_.procedure->putStill(still->image, still->place);
+    }
+    if (const auto notice = job_.procedure->takeNotice()) {
+      notify(*notice, true);
+      overlay_->notify(*notice, job_.clock->now());
+    }
+    if (auto content = overlay_->update(job_.procedure->shown(), job_.clock->now())) {
+      controls_.setOverlay(std::move(content));
+    }
+    const runtime::ProcedureStatus status = job_.procedure->status();
+    if (std::exchange(shownStep_, status.step) == status.step) return;
+    reporter_.interrupt();
+    spdlog::info("step {}: {}", status.step, job_.procedure->text());
   }
 
   void handleSnapshots() {
@@ -292,6 +442,13 @@ class LivePainting {
 
   void reportSnapshot(const hal::Result<std::filesystem::path>& saved) {
     notify(saved ? "saved " + saved->string() : saved.error().message(), saved.has_value());
+  }
+
+  void handleTuning() {
+    if (const auto text = input_.takeLookFile()) {
+      reportSnapshot(saveLook(job_.snapshots, *text, std::time(nullptr)));
+    }
+    if (const auto text = input_.takeCommandLine()) notify(*text, true);
   }
 
   void notify(const std::string& text, bool isGood) {
@@ -329,6 +486,8 @@ class LivePainting {
   /// Idempotent. Does not return if a thread hangs.
   void stopThreads() {
     if (!threads_) return;
+    if (service_) service_->stopping();
+    isStopping_ = true;
     const runtime::LiveThreads::Stopped stopped = threads_->stop(kStopPatience);
     if (!stopped.stuck.empty()) exitWithStuckThreads(stopped.stuck);
     failures_ = stopped.failures;
@@ -386,11 +545,18 @@ class LivePainting {
   std::unique_ptr<hal::HotplugMonitor> hotplug_;  ///< notifies supervisor, outputs and input
   std::atomic<bool> isPipelineMade_ = false;      ///< outputs and paint stage exist
   std::unique_ptr<StatusServer> server_;          ///< reads the pipeline's status
+  std::optional<ServiceReporter> service_;        ///< unset where no service manager listens
 
   hal::TimePoint waitingSince_;  ///< set before the status server starts
   hal::TimePoint began_;
   hal::TimePoint reported_;
   std::string waitingCause_;
+  std::optional<LiveOverlay> overlay_;  ///< where there is a procedure
+  std::string shownStep_;               ///< of the procedure, in the log
+  MachinePlace machine_;                ///< of the procedure, in the scene
+  std::string style_;                   ///< of the painter that was made, or is being made
+  const std::function<bool()> isSignalled_ = cancelledBySignal();
+  std::atomic<bool> isStopping_ = false;
   std::vector<hal::Error> failures_;   ///< errors of outputs, at the end
   std::optional<hal::Error> failure_;  ///< the error that ended the painting
   bool hasBegun_ = false;              ///< frames flow to the outputs

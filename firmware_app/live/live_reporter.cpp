@@ -58,6 +58,12 @@ void LiveReporter::update(const runtime::RuntimeStatus& status, hal::TimePoint n
 
 void LiveReporter::reportCamera(const runtime::RuntimeStatus& status) {
   const runtime::CaptureStage::Status& camera = status.camera;
+  if (camera.format && camera.format->warning != lastWarning_) {
+    lastWarning_ = camera.format->warning;
+    if (!lastWarning_.empty()) {
+      warn("{}: {}", camera.camera ? camera.camera->id : "camera", lastWarning_);
+    }
+  }
   if (last_ && last_->camera.state == camera.state) return;
   const std::string name = camera.camera ? camera.camera->id : "camera";
   if (camera.state == hal::CameraState::kStreaming) {
@@ -93,7 +99,7 @@ void LiveReporter::reportPainting(const runtime::RuntimeStatus& status) {
   if (now.contextLosses > before.contextLosses && now.failure) {
     warn("{}; a new context is made", now.failure->message());
   }
-  if (now.hasPainter && !before.hasPainter && now.contextLosses > 0) {
+  if (now.hasPainter && !before.hasPainter && now.contextLosses > 0 && !before.isRenewing) {
     inform("painting goes on with a new context");
   }
   if (now.failures > before.failures && now.failure && now.failure->message() != lastRefusal_) {

@@ -42,6 +42,7 @@ class LiveReporter {
   std::optional<runtime::RuntimeStatus> last_;
   bool wasLost_ = false;
   std::string lastLoss_;
+  std::string lastWarning_;  ///< of the camera's stream
   std::string lastRefusal_;
 };
 

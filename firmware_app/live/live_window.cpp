@@ -16,8 +16,8 @@ constexpr hal::Duration kRedrawPeriod = std::chrono::milliseconds(33);
 }  // namespace
 
 LiveWindow::LiveWindow(hal::Window& window, LiveTuning& tuning, const hal::Clock& clock)
-    : window_(window), tuning_(tuning), clock_(clock), notice_("h: help") {
-  fading_.restart(clock.now());
+    : window_(window), tuning_(tuning), clock_(clock), caption_(tuning, clock) {
+  caption_.notify("h: help");
 }
 
 LiveWindow::Requests LiveWindow::takeRequests() {
@@ -35,26 +35,15 @@ void LiveWindow::press(const hal::KeyPressed& key, Requests& requests) {
   const LiveTuning::Request request = tuning_.press(key);
   if (request == LiveTuning::Request::kUnknownKey) return;
   requests.tuned = true;
-  notice_.clear();
-  fading_.restart(clock_.now());
+  caption_.keyPressed();
   if (request == LiveTuning::Request::kQuit) requests.quit = true;
   if (request == LiveTuning::Request::kSnapshot) requests.snapshot = true;
+  if (request == LiveTuning::Request::kSaveLook) requests.saveLook = true;
+  if (request == LiveTuning::Request::kCommandLine) requests.commandLine = true;
   if (request == LiveTuning::Request::kFullScreen) {
     isFullScreen_ = !isFullScreen_;
     window_.setFullScreen(isFullScreen_);
   }
-}
-
-void LiveWindow::notify(const std::string& notice) {
-  notice_ = notice;
-  fading_.restart(clock_.now());
-}
-
-std::string LiveWindow::caption(double framesPerSecond) const {
-  const std::string first = notice_.empty() ? tuning_.parameterLine() : notice_;
-  const std::string text =
-      fmt::format("{}\n{} · {:.0f} frames/s", first, tuning_.state(), framesPerSecond);
-  return tuning_.showsHelp() ? LiveTuning::help() + "\n\n" + text : text;
 }
 
 hal::Result<void> LiveWindow::update(double framesPerSecond, bool imageFollows) {
@@ -62,10 +51,10 @@ hal::Result<void> LiveWindow::update(double framesPerSecond, bool imageFollows) 
   if (!imageFollows && now - updated_ < kRedrawPeriod) return {};
   updated_ = now;
   window_.setTitle(fmt::format("pleinair: {}", tuning_.state()));
-  const double opacity = tuning_.showsHelp() ? 1.0 : fading_.opacity(now);
-  window_.setCaption(opacity > 0.0 ? caption(framesPerSecond) : std::string(), opacity);
-  const bool isSeen = opacity > 0.0 || drawnOpacity_ > 0.0;
-  drawnOpacity_ = opacity;
+  const LiveCaption::Shown caption = caption_.shown(framesPerSecond);
+  window_.setCaption(caption.text, caption.opacity);
+  const bool isSeen = caption.opacity > 0.0 || drawnOpacity_ > 0.0;
+  drawnOpacity_ = caption.opacity;
   if (!imageFollows && isSeen) return window_.redraw();
   return {};
 }

@@ -18,8 +18,8 @@ constexpr hal::Duration kFirstPollInterval = std::chrono::milliseconds(1);
 Screens::Screens(std::string choice, const std::filesystem::path& state, const hal::Clock& clock)
     : choice_(std::move(choice)), store_(state), clock_(clock) {}
 
-void Screens::add(runtime::OutputStage& stage) {
-  if (screens_.empty()) {
+void Screens::add(runtime::OutputStage& stage, bool keepsPainting) {
+  if (keepsPainting && std::ranges::none_of(screens_, &Screen::keepsPainting)) {
     hal::Result<std::optional<hal::Image>> kept = store_.read();
     if (kept) {
       last_ = *std::move(kept);
@@ -27,7 +27,7 @@ void Screens::add(runtime::OutputStage& stage) {
       failure_ = std::move(kept.error());
     }
   }
-  screens_.push_back({.stage = &stage, .shown = {}});
+  screens_.push_back({.stage = &stage, .keepsPainting = keepsPainting, .shown = {}});
 }
 
 std::vector<runtime::OutputStage*> Screens::stages() const {
@@ -44,6 +44,7 @@ void Screens::update(const LiveProgress& progress) {
     const runtime::OutputStage::Status status = each.stage->status();
     if (awaited == Awaited::kNothing || status.isFailed) {
       if (std::exchange(each.shown, std::nullopt)) each.stage->cancelWaiting();
+      each.picture.reset();
       continue;
     }
     const hal::OutputFormat format = each.stage->format();
@@ -53,7 +54,10 @@ void Screens::update(const LiveProgress& progress) {
                        .starts = status.starts};
     // A frame that was painted late may have taken the picture's place.
     const bool isReplaced = !status.isWaitingShown && !status.isWaitingDue;
-    if (each.shown != wanted || isReplaced) draw(each, wanted, awaited != Awaited::kPace);
+    const bool isNew = each.shown != wanted || isReplaced;
+    const bool isStale = renewal_ > hal::Duration{0} && now - each.handedOver >= renewal_;
+    if (isNew) draw(each, wanted);
+    if (isNew || isStale) show(each, awaited != Awaited::kPace);
   }
   if (auto failure = store_.takeFailure()) failure_ = std::move(failure);
   if (progress.hasBegun && store_.isDue(now)) keep(now);
@@ -69,15 +73,28 @@ void Screens::finish() {
   if (auto failure = store_.takeFailure(true)) failure_ = std::move(failure);
 }
 
-void Screens::draw(Screen& screen, const Drawn& wanted, bool fades) const {
+void Screens::draw(Screen& screen, const Drawn& wanted) {
   screen.shown = wanted;
   hal::FrameSize upright = wanted.format.size;
   if (wanted.quarterTurns % 2 != 0) std::swap(upright.width, upright.height);
   const std::optional<hal::Image> frame = uprightFrameOf(*screen.stage);
-  const hal::ImageView painting = frame ? frame->view() : last_ ? last_->view() : hal::ImageView();
-  const hal::Image picture = present::waitingPicture(upright, painting, wanted.text);
-  screen.stage->showWaiting(
-      std::make_shared<const hal::Image>(present::turned(picture, wanted.quarterTurns)), fades);
+  const bool hasLast = last_ && screen.keepsPainting;
+  const hal::ImageView painting = frame     ? frame->view()
+                                  : hasLast ? last_->view()
+                                            : hal::ImageView();
+  constexpr std::uint64_t kNone = 0;
+  constexpr std::uint64_t kOfTheRunBefore = 1;
+  const std::uint64_t number = frame     ? kOfTheRunBefore + ++frames_
+                               : hasLast ? kOfTheRunBefore
+                                         : kNone;
+  const hal::Image picture = pictures_.draw(upright, painting, number, wanted.text);
+  screen.picture =
+      std::make_shared<const hal::Image>(present::turned(picture, wanted.quarterTurns));
+}
+
+void Screens::show(Screen& screen, bool fades) const {
+  screen.handedOver = clock_.now();
+  screen.stage->showWaiting(screen.picture, fades);
 }
 
 void Screens::showFirst(hal::Clock& clock) {
@@ -96,6 +113,7 @@ void Screens::showFirst(hal::Clock& clock) {
 /// The last frame of the first screen that has shown one, upright.
 std::optional<hal::Image> Screens::lastPainting() const {
   for (const Screen& each : screens_) {
+    if (!each.keepsPainting) continue;
     if (auto frame = uprightFrameOf(*each.stage)) return frame;
   }
   return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -24,8 +25,12 @@ class Screens {
   /// the run before; empty: nowhere. The clock outlives this.
   Screens(std::string choice, const std::filesystem::path& state, const hal::Clock& clock);
 
-  /// The stage outlives this, and keeps its last frame. It lends surfaces, or is waited for.
-  void add(runtime::OutputStage& stage);
+  /// Has waiting pictures shown again after each `interval`, so that they prove that screens still
+  /// show something; zero: never.
+  void renewAfter(hal::Duration interval) { renewal_ = interval; }
+  /// The stage outlives this, and keeps its last frame. `keepsPainting`: whether its last painting
+  /// is kept, and that of the run before is shown.
+  void add(runtime::OutputStage& stage, bool keepsPainting);
   bool isEmpty() const { return screens_.empty(); }
   std::vector<runtime::OutputStage*> stages() const;
 
@@ -52,18 +57,25 @@ class Screens {
   };
   struct Screen {
     runtime::OutputStage* stage = nullptr;
+    bool keepsPainting = false;
     std::optional<Drawn> shown;
+    std::shared_ptr<const hal::Image> picture;  ///< for `shown`
+    hal::TimePoint handedOver;
   };
-  void draw(Screen& screen, const Drawn& wanted, bool fades) const;
+  void draw(Screen& screen, const Drawn& wanted);
+  void show(Screen& screen, bool fades) const;
   void keep(hal::TimePoint now);
   std::optional<hal::Image> lastPainting() const;
   static std::optional<hal::Image> uprightFrameOf(const runtime::OutputStage& stage);
 
   std::string choice_;
+  present::WaitingPictures pictures_;
+  std::uint64_t frames_ = 0;  ///< that were drawn washed out
   LastPainting store_;
   std::optional<hal::Image> last_;  ///< the one of the run before
   std::optional<hal::Error> failure_;
   const hal::Clock& clock_;
+  hal::Duration renewal_{0};
   WaitingState state_;
   std::vector<Screen> screens_;
 };

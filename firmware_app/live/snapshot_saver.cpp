@@ -4,9 +4,12 @@
 #include <cassert>
 #include <cerrno>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <ctime>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <fcntl.h>
@@ -14,6 +17,7 @@
 #include <unistd.h>
 
 #include "hal/media/picture_file.h"
+#include "hal/pending_file.h"
 
 namespace pleinair::app {
 namespace {
@@ -35,20 +39,16 @@ int renameToNew(const fs::path& from, const fs::path& to) {
   return status == 0 ? 0 : errno;
 }
 
-}  // namespace
-
-hal::Result<fs::path> saveSnapshot(const fs::path& folder, const hal::ImageView& image,
-                                   std::time_t time) {
+/// `write` makes a file under a hidden name that is unique to this process, which is then renamed.
+hal::Result<fs::path> saveAsNew(const fs::path& folder, std::string_view ending, std::time_t time,
+                                const std::function<hal::Result<void>(const fs::path&)>& write) {
   const std::string name = stem(time);
-  // The file is written under a hidden name that is unique to this process, then renamed.
-  const fs::path hidden = folder / fmt::format(".{}.{}.png", name, getpid());
-  if (auto written = hal::writePng(hidden, image); !written) {
-    return tl::unexpected(std::move(written.error()));
-  }
-  fs::path path = folder / (name + ".png");
+  const fs::path hidden = folder / fmt::format(".{}.{}{}", name, getpid(), ending);
+  if (auto written = write(hidden); !written) return tl::unexpected(std::move(written.error()));
+  fs::path path = folder / fmt::format("{}{}", name, ending);
   int status = renameToNew(hidden, path);
   for (int number = 2; status == EEXIST; ++number) {
-    path = folder / fmt::format("{}-{}.png", name, number);
+    path = folder / fmt::format("{}-{}{}", name, number, ending);
     status = renameToNew(hidden, path);
   }
   if (status != 0) {
@@ -57,6 +57,24 @@ hal::Result<fs::path> saveSnapshot(const fs::path& folder, const hal::ImageView&
                                           "choose another folder with --snapshots DIR"));
   }
   return path;
+}
+
+}  // namespace
+
+hal::Result<fs::path> saveSnapshot(const fs::path& folder, const hal::ImageView& image,
+                                   std::time_t time) {
+  return saveAsNew(folder, ".png", time,
+                   [&](const fs::path& hidden) { return hal::writePng(hidden, image); });
+}
+
+hal::Result<fs::path> saveLook(const fs::path& folder, const std::string& text, std::time_t time) {
+  return saveAsNew(folder, ".toml", time, [&](const fs::path& hidden) -> hal::Result<void> {
+    hal::Result<hal::PendingFile> file = hal::PendingFile::create(hidden);
+    if (!file) return tl::unexpected(file.error());
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
+    if (auto written = file->write({bytes, text.size()}); !written) return written;
+    return file->publish();
+  });
 }
 
 void SnapshotSaver::save(hal::Image snapshot) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <future>
 #include <optional>
+#include <string>
 
 #include "hal/error.h"
 #include "hal/image.h"
@@ -15,6 +16,10 @@ namespace pleinair::app {
 /// has that name. Errors: kNotFound (no such folder), kPermissionDenied, kNoSpace, kIo.
 hal::Result<std::filesystem::path> saveSnapshot(const std::filesystem::path& folder,
                                                 const hal::ImageView& image, std::time_t time);
+
+/// The same for a text, as "….toml": a look file (look_file.h), as the key w saves it.
+hal::Result<std::filesystem::path> saveLook(const std::filesystem::path& folder,
+                                            const std::string& text, std::time_t time);
 
 /// Saves snapshots in the background, one at a time. One thread.
 class SnapshotSaver {

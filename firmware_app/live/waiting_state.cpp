@@ -13,7 +13,8 @@ Awaited awaitedBy(const LiveProgress& progress) {
   if (!camera.format) return Awaited::kCamera;
   if (!progress.hasBegun) return Awaited::kPainter;
   if (camera.state != hal::CameraState::kStreaming) return Awaited::kCameraAgain;
-  return progress.hasPainter ? Awaited::kNothing : Awaited::kGpu;
+  if (progress.hasPainter) return Awaited::kNothing;
+  return progress.isRenewing ? Awaited::kPainter : Awaited::kGpu;
 }
 
 std::string nameOf(const runtime::CaptureStage::Status& camera, const std::string& choice) {

@@ -13,7 +13,7 @@ namespace pleinair::app {
 enum class Awaited {
   kNothing,      ///< it shows paintings
   kCamera,       ///< the first frame of one
-  kPainter,      ///< that is made for the first time
+  kPainter,      ///< that is made, for the first time or for another style
   kCameraAgain,  ///< that was lost or is silent
   kGpu,          ///< that was lost
   kPace,         ///< the camera streams, but nothing is painted in time
@@ -24,6 +24,7 @@ struct LiveProgress {
   const runtime::CaptureStage::Status& camera;
   bool hasBegun = false;      ///< frames may flow to the outputs
   bool hasPainter = false;    ///< it has one now
+  bool isRenewing = false;    ///< another one is made for another style
   std::uint64_t painted = 0;  ///< frames so far
 };
 

@@ -21,6 +21,7 @@
 #include "firmware_app/scene/scene_observer.h"
 #include "firmware_app/scene/scene_warnings.h"
 #include "hal/media/picture_file.h"
+#include "hal/outputs/frames/frames_output.h"
 #include "hal/outputs/registry.h"
 #include "hal/overloaded.h"
 #include "hal/pending_file.h"
@@ -45,7 +46,7 @@ void warn(const std::optional<std::string>& warning) {
 }
 
 /// How often a device that is silent is left, to look for a signal.
-constexpr hal::Duration kSignalInterval = std::chrono::milliseconds(100);
+constexpr hal::Duration kSignalPollInterval = std::chrono::milliseconds(100);
 
 template <class File>
 std::optional<File> created(const std::optional<std::filesystem::path>& path) {
@@ -60,8 +61,10 @@ bool isStandardOutput(const std::filesystem::path& output) {
 std::unique_ptr<hal::MemoryOutput> openOutput(const PaintingOptions& options) {
   if (isStandardOutput(options.output)) return hal::openMovieStream();
   const bool isMovie = hal::isMovieName(options.output) && !isFrameSeries(options.output);
-  if (!isMovie) return orThrow(hal::openFileOutput(options.output));
-  return hal::openMovieOutput(options.output, options.movie);
+  if (isMovie) return hal::openMovieOutput(options.output, options.movie);
+  std::unique_ptr<hal::MemoryOutput> pictures = orThrow(hal::openFileOutput(options.output));
+  if (pictures->identity().backend != hal::framesKind().name) return pictures;
+  return hal::openFramesOutput(options.output, options.pictures);
 }
 
 /// One run of a job: the camera, the painter and all outputs.
@@ -78,6 +81,8 @@ class Painting {
                   .tracksTags = !job.scene.tags.empty() || job.options.poses,
                   .shaderDirectory = job.options.shaderDirectory,
                   .expectedFormat = stream_.frame,
+                  .overlay = job.overlay != nullptr,
+                  .machine = job.machine,
                   .isCancelled = cancelledBySignal()}),
         parameters_(startParameters(job.options)),
         observer_(job.scene),
@@ -174,7 +179,7 @@ class Painting {
     };
     for (bool goesOn = true; goesOn;) {
       hal::NextFrame next = job_.camera->next(
-          job_.clock == nullptr ? hal::kNoDeadline : job_.clock->now() + kSignalInterval);
+          job_.clock == nullptr ? hal::kNoDeadline : job_.clock->now() + kSignalPollInterval);
       goesOn = std::visit(receive, next);
     }
     return frame;
@@ -183,9 +188,10 @@ class Painting {
   void paint(const hal::CapturedFrame& frame, std::uint64_t index) {
     if (!firstTime_) firstTime_ = frame.captureTime;
     const hal::Duration time = frame.captureTime - *firstTime_;
+    if (job_.overlay) parameters_.overlay = job_.overlay(time, pictureSize());
     while (!painter_.hasRoom(reader_)) write(true);
     const Picture picture = orThrow(painter_.paint(frame, parameters_));
-    observer_.take(frame.image, picture.tracking);
+    observer_.take(frame.image.map().view(), picture.tracking);
     if (poses_) orThrow(poses_->write(index, time, picture.tracking));
     if (sheetFile_ && sheet_.wants(index)) {
       const hal::Image camera = orThrow(painter_.cameraSnapshot());

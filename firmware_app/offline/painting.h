@@ -2,15 +2,18 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "config/parameter_values.h"
 #include "hal/camera.h"
+#include "hal/media/picture_encoder.h"
 #include "hal/outputs/movie/movie_output.h"
 #include "hal/pixel_format.h"
 #include "pipeline/engine/painter.h"
+#include "pipeline/overlay/overlay_content.h"
 #include "pipeline/scene/description/scene.h"
 
 namespace pleinair::app {
@@ -21,7 +24,8 @@ inline constexpr const char* kStandardOutput = "-";
 /// The options of one run.
 struct PaintingOptions {
   std::filesystem::path output;
-  hal::MovieOptions movie;  ///< where the output is one
+  hal::MovieOptions movie;           ///< where the output is one
+  hal::PictureFileOptions pictures;  ///< where it is pictures
   std::string style = "watercolor";
   std::optional<hal::FrameSize> size;                 ///< default: the camera's
   std::optional<std::uint64_t> frames;                ///< default: all
@@ -46,6 +50,10 @@ struct PaintingJob {
   const hal::Clock* clock = nullptr;
   PaintingOptions options;
   scene::Scene scene;
+  std::optional<std::size_t> machine;  ///< of the scene, that an overlay is drawn over
+  /// The overlay at a time of the recording, for pictures of that size; null: none.
+  std::function<std::shared_ptr<const overlay::OverlayContent>(hal::Duration, hal::FrameSize)>
+      overlay;
   std::string progressVerb;  ///< verb of the progress line: "painting"
   std::string summaryVerb;   ///< verb of the summary: "painted"
 };

@@ -50,6 +50,7 @@ void SceneObserver::take(const hal::ImageView& frame, const tracking::TrackingRe
                         tracking.worldSource == tracking::PoseSource::kSeen;
     if (isSeen && tracking.cameraFromWorld) comparePlace(tag, *tracking.cameraFromWorld);
   }
+  if (tracking.counted.mirroredTags > 0) ++mirrored_;
   const bool isKept = !scene_.tags.empty() && sightings_.empty() &&
                       std::ranges::find(kKeptFrames, frames_) != kKeptFrames.end();
   if (isKept) tagless_.push_back(greyCopy(frame));
@@ -107,8 +108,14 @@ std::vector<std::string> SceneObserver::findings() const {
   for (const auto& [id, count] : sightings_) seen.insert(id);
   if (auto unseen = unseenTagsWarning(scene_, seen)) findings.push_back(*std::move(unseen));
   if (seen.empty() && !tagless_.empty()) {
-    if (std::string family = familyFinding(); !family.empty())
-      findings.push_back(std::move(family));
+    std::string family = mirrored_ == 0 ? familyFinding() : std::string();
+    if (!family.empty()) findings.push_back(std::move(family));
+  }
+  if (seen.empty() && mirrored_ > 0) {
+    findings.emplace_back(
+        "the scene's tags are seen mirrored: the sheet was printed mirrored (print it anew, "
+        "without "
+        "the driver's mirror option), is seen in a mirror, or the camera mirrors its image");
   }
   for (const auto& [id, placement] : placements_) {
     if (2 * placement.elsewhere <= placement.frames) continue;

@@ -15,7 +15,7 @@
 namespace pleinair::app {
 
 /// Gathers over the frames of a recording what shows that its scene file is wrong: tags that are
-/// never seen, of another family, or elsewhere than the scene says. One thread.
+/// never seen, of another family, mirrored, or elsewhere than the scene says. One thread.
 class SceneObserver {
  public:
   /// `scene` outlives this.
@@ -44,6 +44,7 @@ class SceneObserver {
 
   const scene::Scene& scene_;
   std::uint64_t frames_ = 0;
+  std::uint64_t mirrored_ = 0;  ///< frames in which tags were seen, but mirrored
   std::map<int, std::uint64_t> sightings_;
   std::map<int, Placement> placements_;
   std::vector<hal::Image> tagless_;  ///< grey; a few frames, until a tag is seen

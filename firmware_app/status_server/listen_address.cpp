@@ -2,11 +2,13 @@
 
 #include <array>
 #include <charconv>
+#include <cstddef>
 #include <cstring>
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <netinet/in.h>
+#include <sys/un.h>
 
 namespace pleinair::app {
 namespace {
@@ -49,6 +51,16 @@ std::optional<ListenAddress> addressOf(std::string host, in_port_t port) {
   return stored(v6);
 }
 
+/// "unix:/run/pleinair.sock"; an abstract name begins with '@'.
+std::string pathOf(const ListenAddress& address) {
+  const auto local = loaded<sockaddr_un>(address);
+  const std::size_t head = offsetof(sockaddr_un, sun_path);
+  std::string path(static_cast<const char*>(local.sun_path),
+                   address.length > head ? address.length - head : 0);
+  if (path.starts_with('\0')) path.front() = '@';
+  return "unix:" + path.substr(0, path.find('\0'));
+}
+
 }  // namespace
 
 hal::Result<std::optional<ListenAddress>> parseListen(const std::string& text) {
@@ -65,8 +77,27 @@ hal::Result<std::optional<ListenAddress>> parseListen(const std::string& text) {
                  .problem = fmt::format("found \"{}\", allowed: {}", text, kAllowedListen)});
 }
 
+bool isLoopback(const sockaddr* address) {
+  constexpr std::uint32_t kLoopbackNet = 127;
+  const void* any = address;
+  if (address->sa_family == AF_UNIX) return true;
+  if (address->sa_family == AF_INET) {
+    sockaddr_in v4{};
+    std::memcpy(&v4, any, sizeof v4);
+    return ntohl(v4.sin_addr.s_addr) >> 24U == kLoopbackNet;
+  }
+  if (address->sa_family != AF_INET6) return false;
+  sockaddr_in6 v6{};
+  std::memcpy(&v6, any, sizeof v6);
+  constexpr std::size_t kMappedNet = 12;  // of ::ffff:127.0.0.1
+  return IN6_IS_ADDR_LOOPBACK(&v6.sin6_addr) != 0 ||
+         (IN6_IS_ADDR_V4MAPPED(&v6.sin6_addr) != 0 &&
+          v6.sin6_addr.s6_addr[kMappedNet] == kLoopbackNet);
+}
+
 std::string toText(const ListenAddress& address) {
   std::array<char, INET6_ADDRSTRLEN> text{};
+  if (address.storage.ss_family == AF_UNIX) return pathOf(address);
   if (address.storage.ss_family == AF_INET6) {
     const auto v6 = loaded<sockaddr_in6>(address);
     inet_ntop(AF_INET6, &v6.sin6_addr, text.data(), text.size());

@@ -22,6 +22,9 @@ struct ListenAddress {
 /// "127.0.0.1:9117", "0.0.0.0:9117", "[::1]:9117"; nothing for "off". Errors: kInvalidArgument.
 hal::Result<std::optional<ListenAddress>> parseListen(const std::string& text);
 
+/// Whether it is this machine's own (127.0.0.0/8, ::1), or of a local socket.
+bool isLoopback(const sockaddr* address);
+
 /// As parseListen() reads it.
 std::string toText(const ListenAddress& address);
 

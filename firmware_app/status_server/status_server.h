@@ -4,9 +4,11 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hal/error.h"
+#include "hal/file_descriptor.h"
 
 namespace pleinair::app {
 
@@ -29,16 +31,31 @@ class OpenConnections {
   std::vector<Connection> connections_;
 };
 
+/// Commands that clients may POST to /procedure, as text of at most kMaxCommandBytes.
+struct StatusCommands {
+  static constexpr std::size_t kMaxCommandBytes = 256;
+  std::string token;  ///< clients send it as "Authorization: Bearer TOKEN"; empty: none are taken
+  /// Takes the body's text, on the server's thread, without waiting. Errors: kBusy (503), others
+  /// (400), with their message.
+  std::function<hal::Result<void>(std::string_view text)> take;
+};
+
 /// The contents of the status pages. Each function is called on the server's thread for every
 /// request, and must neither wait nor use the GPU. If it throws, the answer has status 500.
 struct StatusPages {
+  std::function<std::string()> page;     ///< /: for people, HTML
+  std::function<std::string()> picture;  ///< /painting.jpg: a JPEG; empty (404): there is none yet
   std::function<std::string()> json;     ///< /status
   std::function<std::string()> metrics;  ///< /metrics: Prometheus' text format 0.0.4
   std::function<bool()> healthy;         ///< /healthz: 200, else 503
+  StatusCommands commands = {};          ///< /procedure
 };
 
-/// A small HTTP server on a thread of its own: GET and HEAD of /status, /metrics and /healthz; 404
-/// for other pages, 405 for other methods. Clients can neither hold up the program nor make it
+/// A small HTTP server on a thread of its own: GET and HEAD of /, /painting.jpg, /status, /metrics
+/// and /healthz; 404 for other pages, 405 for other methods. Where it takes commands, also POST of
+/// /procedure: from this machine alone (403), with the token (401) and no Origin, which only a
+/// browser sends for a foreign page (403); 202 says that the command was taken, not that it had an
+/// effect, which /status shows. Clients can neither hold up the program nor make it
 /// grow: requests have at most 8 KiB, a client that is silent for 5 s is dropped, and of more than
 /// a few connections the oldest is closed.
 class StatusServer {
@@ -48,7 +65,7 @@ class StatusServer {
   StatusServer(const StatusServer&) = delete;
   StatusServer& operator=(const StatusServer&) = delete;
 
-  /// "127.0.0.1:9117", with the port that port 0 was given.
+  /// "127.0.0.1:9117", with the port that port 0 was given; of a passed socket also a path.
   virtual const std::string& address() const = 0;
 };
 
@@ -56,5 +73,9 @@ class StatusServer {
 /// Says in the log where it listens. Throws hal::Failure: kInvalidArgument (no such address),
 /// kBusy (the port is taken), kPermissionDenied, kUnsupported (this build has none), kIo.
 std::unique_ptr<StatusServer> startStatusServer(const std::string& listen, StatusPages pages);
+
+/// The same at a socket that listens already, of whatever family: a service manager opened it for a
+/// process that has no network itself. Throws hal::Failure: kUnsupported, kIo.
+std::unique_ptr<StatusServer> startStatusServer(hal::FileDescriptor listening, StatusPages pages);
 
 }  // namespace pleinair::app

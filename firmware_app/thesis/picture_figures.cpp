@@ -331,7 +331,7 @@ ThesisFigure featureFigure(ThesisBench& bench) {
     return moved.visible ? std::optional(moved.px) : std::nullopt;
   };
   std::vector<hal::Image> lumas;
-  for (const hal::CapturedFrame& each : frames) lumas.push_back(lumaOf(each.image));
+  for (const hal::CapturedFrame& each : frames) lumas.push_back(lumaOf(each.image.map().view()));
   const Matched thesis = matchedBy(tracking::FeatureMethod::kHarrisSift, lumas, flow);
   const Matched ours = matchedBy(tracking::FeatureMethod::kLucasKanade, lumas, flow);
   const cv::Mat3b before = matrixOf(hal::Image(frames[kFrames - 2].image));

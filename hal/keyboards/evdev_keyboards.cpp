@@ -1,6 +1,9 @@
+#include <array>
 #include <cerrno>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -9,6 +12,7 @@
 #include <libevdev/libevdev.h>
 
 #include "hal/file_descriptor.h"
+#include "hal/keyboards/buttons.h"
 #include "hal/keyboards/evdev_listing.h"
 #include "hal/keyboards/keyboard_device.h"
 
@@ -26,6 +30,10 @@ class EvdevKeyboard final : public KeyboardDevice {
 
   Answer read(KeyEvent& event) override {
     for (;;) {
+      if (queued_) {
+        event = *std::exchange(queued_, std::nullopt);
+        return true;
+      }
       input_event raw{};
       const int status = libevdev_next_event(
           device_.get(), isSyncing_ ? LIBEVDEV_READ_FLAG_SYNC : LIBEVDEV_READ_FLAG_NORMAL, &raw);
@@ -37,6 +45,7 @@ class EvdevKeyboard final : public KeyboardDevice {
       if (status == -EINTR) continue;
       if (status < 0) return tl::unexpected(failed("cannot read", -status));
       if (status == LIBEVDEV_READ_STATUS_SYNC) isSyncing_ = true;
+      if (raw.type == EV_ABS && turnHat(raw, event)) return true;
       if (raw.type != EV_KEY) continue;
       event = {.code = raw.code, .value = raw.value};
       return true;
@@ -51,6 +60,21 @@ class EvdevKeyboard final : public KeyboardDevice {
   }
 
  private:
+  /// A gamepad's hat as the buttons of its directions, BTN_DPAD_…: many gamepads have no such
+  /// buttons. Returns whether there is an event.
+  bool turnHat(const input_event& raw, KeyEvent& event) {
+    static constexpr std::array<std::array<unsigned, 2>, 2> kDirections{
+        {{BTN_DPAD_LEFT, BTN_DPAD_RIGHT}, {BTN_DPAD_UP, BTN_DPAD_DOWN}}};
+    if (raw.code != ABS_HAT0X && raw.code != ABS_HAT0Y) return false;
+    const std::size_t axis = raw.code - ABS_HAT0X;
+    const unsigned now = raw.value == 0 ? 0 : kDirections.at(axis).at(raw.value < 0 ? 0 : 1);
+    const unsigned before = std::exchange(hat_.at(axis), now);
+    if (now == before) return false;
+    event = before != 0 ? KeyEvent{.code = before, .value = 0} : KeyEvent{.code = now, .value = 1};
+    if (before != 0 && now != 0) queued_ = KeyEvent{.code = now, .value = 1};
+    return true;
+  }
+
   Error failed(std::string problem, int errnoValue, std::string remedy = {}) const {
     Error error = errnoError(node_, std::move(problem), errnoValue, std::move(remedy));
     if (errnoValue == ENODEV) error.kind = ErrorKind::kDeviceLost;
@@ -60,7 +84,9 @@ class EvdevKeyboard final : public KeyboardDevice {
   std::string node_;
   FileDescriptor file_;  // before the device, which uses it
   std::unique_ptr<libevdev, LibevdevRelease> device_;
-  bool isSyncing_ = false;  ///< the kernel's buffer overran (SYN_DROPPED)
+  bool isSyncing_ = false;         ///< the kernel's buffer overran (SYN_DROPPED)
+  std::array<unsigned, 2> hat_{};  ///< held directions of the hat, 0: none
+  std::optional<KeyEvent> queued_;
 };
 
 class EvdevKeyboards final : public KeyboardDevices {
@@ -92,6 +118,16 @@ class EvdevKeyboards final : public KeyboardDevices {
 KeyboardDevices& kernelKeyboards() {
   static EvdevKeyboards keyboards;
   return keyboards;
+}
+
+std::string buttonName(unsigned code) {
+  const char* name = libevdev_event_code_get_name(EV_KEY, code);
+  return name == nullptr ? std::to_string(code) : name;
+}
+
+std::optional<unsigned> buttonNamed(const std::string& name) {
+  const int code = libevdev_event_code_from_name(EV_KEY, name.c_str());
+  return code < 0 ? buttonNumbered(name) : std::optional(static_cast<unsigned>(code));
 }
 
 }  // namespace pleinair::hal

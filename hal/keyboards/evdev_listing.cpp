@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstddef>
 #include <cstdint>
 #include <fstream>
 #include <optional>
@@ -33,10 +34,10 @@ std::string lineOf(const fs::path& path) {
   return line;
 }
 
-/// The bits of keys, but for buttons of mice and such, from words in hexadecimal, the highest
-/// first.
+/// The bits of keys and of buttons, from words in hexadecimal, the highest first.
 struct KeyBits {
-  bool any = false;
+  bool anyKey = false;
+  bool anyButton = false;    ///< of mice, gamepads and such
   std::uint64_t lowest = 0;  ///< by KEY_…: Escape is bit 1
 };
 
@@ -46,9 +47,19 @@ KeyBits keyBitsOf(const std::string& text) {
   std::vector<std::uint64_t> all;
   for (std::uint64_t word = 0; words >> std::hex >> word;) all.push_back(word);
   std::ranges::reverse(all);
-  all.resize(std::min(all.size(), kWords));
-  return {.any = std::ranges::any_of(all, [](std::uint64_t word) { return word != 0; }),
+  const auto isSet = [](std::uint64_t word) { return word != 0; };
+  const auto keysEnd = all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), kWords));
+  return {.anyKey = std::any_of(all.begin(), keysEnd, isSet),
+          .anyButton = std::any_of(keysEnd, all.end(), isSet),
           .lowest = all.empty() ? 0 : all.front()};
+}
+
+/// "05f3:00ff"; empty where the device has no vendor.
+std::string idOf(const fs::path& device) {
+  const std::string vendor = lineOf(device / "id" / "vendor");
+  const std::string product = lineOf(device / "id" / "product");
+  if (vendor.empty() || product.empty() || vendor == "0000") return {};
+  return vendor + ":" + product;
 }
 
 /// As udev judges (ID_INPUT_KEYBOARD): all of the keys 1 to 31, Escape to S.
@@ -67,12 +78,15 @@ std::vector<KeyboardDescription> listEvdevKeyboards(const fs::path& folder) {
     const std::string name = each->path().filename().string();
     const std::optional<int> number = numberOf(name);
     if (!number) continue;
-    const KeyBits bits = keyBitsOf(lineOf(each->path() / "device" / "capabilities" / "key"));
-    if (!bits.any) continue;
+    const fs::path device = each->path() / "device";
+    const KeyBits bits = keyBitsOf(lineOf(device / "capabilities" / "key"));
+    if (!bits.anyKey && !bits.anyButton) continue;
     found.push_back({*number,
                      {.node = "/dev/input/" + name,
-                      .name = lineOf(each->path() / "device" / "name"),
-                      .isKeyboard = isKeyboard(bits)}});
+                      .name = lineOf(device / "name"),
+                      .isKeyboard = isKeyboard(bits),
+                      .hasKeys = bits.anyKey,
+                      .id = idOf(device)}});
   }
   std::ranges::sort(found, {}, &std::pair<int, KeyboardDescription>::first);
   std::vector<KeyboardDescription> keyboards;

@@ -7,8 +7,8 @@
 
 namespace pleinair::hal {
 
-/// The input devices with keys, by number, from the kernel's list (`folder`, as /sys/class/input).
-/// Opens no device and needs no permission.
+/// The input devices with keys or buttons, by number, from the kernel's list (`folder`, as
+/// /sys/class/input). Opens no device and needs no permission.
 std::vector<KeyboardDescription> listEvdevKeyboards(
     const std::filesystem::path& folder = "/sys/class/input");
 

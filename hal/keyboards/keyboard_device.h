@@ -8,11 +8,15 @@
 
 namespace pleinair::hal {
 
-/// An input device with keys, as the kernel describes it.
+/// An input device with keys or buttons, as the kernel describes it.
 struct KeyboardDescription {
   std::string node;         ///< "/dev/input/event3"
   std::string name;         ///< "AT Translated Set 2 keyboard"
   bool isKeyboard = false;  ///< has the letters of one; a pedal or a power button has not
+  bool hasKeys = true;      ///< has keys; a mouse or a gamepad has buttons only
+  /// Vendor and product in hexadecimal, "05f3:00ff": the same at any socket, and for all nodes of a
+  /// device. Empty where the kernel knows none.
+  std::string id;
 };
 
 /// A key of a device went down (1) or up (0), or repeats (2).
@@ -45,7 +49,7 @@ class KeyboardDevices {
   KeyboardDevices(const KeyboardDevices&) = delete;
   KeyboardDevices& operator=(const KeyboardDevices&) = delete;
 
-  /// Those that have keys, by node. Opens none and needs no permission.
+  /// Those that have keys or buttons, by node. Opens none and needs no permission.
   virtual std::vector<KeyboardDescription> list() = 0;
   /// The node that a path leads to: of "/dev/input/by-id/usb-…-event-kbd". As it is where it leads
   /// nowhere.
@@ -56,5 +60,9 @@ class KeyboardDevices {
 
 /// The kernel's, through libevdev.
 KeyboardDevices& kernelKeyboards();
+
+/// Whether `choice` names the device: its id, its name, its node, or a path that leads to the node.
+bool isNamed(const KeyboardDescription& device, const std::string& choice,
+             KeyboardDevices& devices);
 
 }  // namespace pleinair::hal

@@ -1,11 +1,7 @@
 #pragma once
 
-#include <atomic>
-#include <bitset>
 #include <cstddef>
-#include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,15 +9,17 @@
 #include "hal/clock.h"
 #include "hal/error.h"
 #include "hal/key_pressed.h"
+#include "hal/keyboards/input_devices.h"
 #include "hal/keyboards/keyboard_device.h"
 
 namespace pleinair::hal {
 
 /// Which keyboards are read.
 struct KeyboardChoice {
-  bool all = true;                 ///< every keyboard, and those that are named
-  std::vector<std::string> named;  ///< nodes, paths that lead to them, or devices' names
-  bool grabs = false;              ///< their keys reach neither the console nor other programs
+  bool all = true;                  ///< every keyboard, and those that are named
+  std::vector<std::string> named;   ///< nodes, paths that lead to them, or devices' names or ids
+  std::vector<std::string> except;  ///< in the same forms: what is read elsewhere
+  bool grabs = false;               ///< their keys reach neither the console nor other programs
 
   /// "auto" (all), "none", or nodes, paths and names with commas between them. Nothing where a name
   /// is empty or too long.
@@ -42,40 +40,21 @@ class Keyboards {
   static constexpr std::size_t kMaxKeys = 64;
 
   /// Keyboards may have come or gone. Any thread.
-  void devicesChanged() { hasChanged_ = true; }
+  void devicesChanged() { devices_.devicesChanged(); }
 
   /// While another console is in front, whose keys they are: keys are dropped and grabs given up.
-  void setPaused(bool on);
+  void setPaused(bool on) { devices_.setPaused(on); }
 
   /// How many are read now.
-  std::size_t count() const { return open_.size(); }
+  std::size_t count() const { return devices_.open().size(); }
   /// Appends what has kept keyboards from being read since the last call, once for each.
-  void takeProblems(std::vector<Error>& problems);
+  void takeProblems(std::vector<Error>& problems) { devices_.takeProblems(problems); }
 
  private:
-  struct Open {
-    std::string node;
-    std::unique_ptr<KeyboardDevice> device;
-    std::bitset<768> held;  ///< by KEY_…
-  };
-  void look();
-  void open(const KeyboardDescription& description);
-  bool isChosen(const KeyboardDescription& description) const;
-  /// Whether it is still there.
-  bool read(Open& keyboard, std::vector<KeyPressed>& keys);
-  void accept(Open& keyboard, const KeyEvent& event, std::vector<KeyPressed>& keys);
+  void accept(const KeyEvent& event, std::vector<KeyPressed>& keys);
   bool isHeld(bool shift) const;
-  void tell(const std::string& node, Error problem);
 
-  KeyboardChoice choice_;
-  KeyboardDevices& devices_;
-  const Clock& clock_;
-  std::atomic<bool> hasChanged_ = true;
-  TimePoint lookedAt_;
-  std::vector<Open> open_;
-  std::set<std::string> told_;  ///< nodes whose problem was told
-  std::vector<Error> problems_;
-  bool isPaused_ = false;
+  InputDevices devices_;
 };
 
 }  // namespace pleinair::hal

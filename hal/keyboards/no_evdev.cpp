@@ -1,5 +1,9 @@
 // Replaces evdev_keyboards.cpp in builds without libevdev.
 
+#include <optional>
+#include <string>
+
+#include "hal/keyboards/buttons.h"
 #include "hal/keyboards/evdev_listing.h"
 #include "hal/keyboards/keyboard_device.h"
 
@@ -23,6 +27,14 @@ class NoKeyboards final : public KeyboardDevices {
 KeyboardDevices& kernelKeyboards() {
   static NoKeyboards keyboards;
   return keyboards;
+}
+
+std::string buttonName(unsigned code) {
+  return std::to_string(code);
+}
+
+std::optional<unsigned> buttonNamed(const std::string& name) {
+  return buttonNumbered(name);
 }
 
 }  // namespace pleinair::hal

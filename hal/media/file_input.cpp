@@ -18,6 +18,12 @@ Result<FileInput> FileInput::open(const std::filesystem::path& path) {
   if (::fstat(file.file_.get(), &status) != 0) {
     return tl::unexpected(errnoError(path.string(), "cannot read", errno));
   }
+  if (S_ISFIFO(status.st_mode)) {
+    return tl::unexpected(Error{.kind = ErrorKind::kInvalidInput,
+                                .subject = path.string(),
+                                .problem = "is a pipe",
+                                .remedy = "read a movie from standard input: --input - < PIPE"});
+  }
   if (!S_ISREG(status.st_mode)) {
     return tl::unexpected(Error{.kind = ErrorKind::kInvalidInput,
                                 .subject = path.string(),

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hal/media/errors.h"
+#include "hal/media/icc_profile.h"
 #include "hal/media/picture_decoder.h"
 #include "hal/media/wide_colour.h"
 
@@ -203,6 +204,24 @@ Result<LentPicture> lendRgba(const AVFrame& frame) {
   return LentPicture{.view = viewOf(*rgba, format), .lease = rgba};
 }
 
+/// The frame in sRGB's colours, where its ICC profile says that it has others; else the frame
+/// itself.
+Result<std::shared_ptr<const AVFrame>> withoutProfile(const std::shared_ptr<const AVFrame>& frame) {
+  const std::optional<IccConversion> conversion = IccConversion::of(*frame);
+  if (!conversion) return frame;
+  const Result<Frame> source = convert(*frame, conversion->sourceLayout(), storedSize(*frame));
+  if (!source) return tl::unexpected(source.error());
+  Frame target = allocate(conversion->targetLayout(), frame->width, frame->height);
+  if (av_frame_copy_props(target.get(), frame.get()) < 0) throw std::bad_alloc();
+  av_frame_remove_side_data(target.get(), AV_FRAME_DATA_ICC_PROFILE);
+  target->color_primaries = AVCOL_PRI_BT709;
+  target->color_trc = AVCOL_TRC_IEC61966_2_1;
+  target->colorspace = AVCOL_SPC_RGB;
+  target->color_range = AVCOL_RANGE_JPEG;
+  conversion->apply(**source, *target);
+  return std::shared_ptr<const AVFrame>(std::move(target));
+}
+
 /// Lends the image as stored, with square pixels, without applying its orientation.
 Result<LentPicture> lendStored(const std::shared_ptr<const AVFrame>& frame, Delivery delivery,
                                Orientation orientation) {
@@ -286,8 +305,10 @@ Result<LentPicture> lendPicture(const std::shared_ptr<const AVFrame>& frame, Del
     return tl::unexpected(tooLarge("", size));
   }
   if (delivery == Delivery::kRgba) return lendRgba(*frame);
+  const Result<std::shared_ptr<const AVFrame>> plain = withoutProfile(frame);
+  if (!plain) return tl::unexpected(plain.error());
   const Orientation orientation = orientationOf(*frame);
-  Result<LentPicture> stored = lendStored(frame, delivery, orientation);
+  Result<LentPicture> stored = lendStored(*plain, delivery, orientation);
   if (!stored || orientation.isUpright()) return stored;
   return upright(*stored, orientation);
 }

@@ -32,11 +32,12 @@ FrameSize squarePixelSize(FrameSize stored, AVRational aspect);
 enum class Delivery { kAsStored, kRgb, kRgba };
 
 /// Converts a frame. I420, NV12, YUYV, grey and RGB8 are lent without a copy; 16-bit grey becomes
-/// grey, every other layout becomes RGB8 with alpha over white. HDR, wide gamuts and Y'CbCr of more
-/// than 8 bits become RGB8 by toSrgb(). Pixels that are not square are resampled
-/// (squarePixelSize(); not for kRgba). If the display matrix turns or mirrors the frame, the result
-/// is an upright copy (YUYV as RGB8). Errors: kUnsupported (size beyond the limits, or a layout or
-/// colour space that cannot be converted).
+/// grey, every other layout becomes RGB8 with alpha over white. HDR, wide gamuts and colours of
+/// more than 8 bits become RGB8 by toSrgb(), those of another ICC profile than sRGB's by
+/// IccConversion (neither for kRgba: textures have no profiles, glTF 2.0 §3.9.2). Pixels that are
+/// not square are resampled (squarePixelSize(); not for kRgba). If the display matrix turns or
+/// mirrors the frame, the result is an upright copy (YUYV as RGB8). Errors: kUnsupported (size
+/// beyond the limits, or a layout or colour space that cannot be converted).
 Result<LentPicture> lendPicture(const std::shared_ptr<const AVFrame>& frame,
                                 Delivery delivery = Delivery::kAsStored);
 

@@ -38,10 +38,12 @@ struct Layout {
 };
 
 Layout layoutOf(const heif_image_handle& handle) {
+  const bool hasAlpha = heif_image_handle_has_alpha_channel(&handle) != 0;
   if (heif_image_handle_get_luma_bits_per_pixel(&handle) > 8) {
+    if (hasAlpha) return {AV_PIX_FMT_RGBA64LE, heif_chroma_interleaved_RRGGBBAA_LE, 8};
     return {AV_PIX_FMT_RGB48LE, heif_chroma_interleaved_RRGGBB_LE, 6};
   }
-  if (heif_image_handle_has_alpha_channel(&handle) != 0) {
+  if (hasAlpha) {
     return {AV_PIX_FMT_RGBA, heif_chroma_interleaved_RGBA, 4};
   }
   return {AV_PIX_FMT_RGB24, heif_chroma_interleaved_RGB, 3};
@@ -64,6 +66,13 @@ void copyRow(const std::uint8_t* from, std::uint8_t* to, std::size_t bytes, int 
 
 /// The codes are those of ITU-T H.273 in both libraries.
 void tagColours(const heif_image_handle& handle, AVFrame& frame) {
+  if (const std::size_t bytes = heif_image_handle_get_raw_color_profile_size(&handle); bytes > 0) {
+    AVFrameSideData* const side = av_frame_new_side_data(&frame, AV_FRAME_DATA_ICC_PROFILE, bytes);
+    if (side == nullptr) throw std::bad_alloc();
+    if (heif_image_handle_get_raw_color_profile(&handle, side->data).code != heif_error_Ok) {
+      av_frame_remove_side_data(&frame, AV_FRAME_DATA_ICC_PROFILE);
+    }
+  }
   heif_color_profile_nclx* raw = nullptr;
   if (heif_image_handle_get_nclx_color_profile(&handle, &raw).code != heif_error_Ok) return;
   const Heif<heif_color_profile_nclx> profile(raw);

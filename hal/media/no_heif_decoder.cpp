@@ -1,4 +1,4 @@
-// What stands in where libheif is not there.
+// A build without libheif refuses HEIC and AVIF, and says which package is missing.
 #include "hal/media/heif_decoder.h"
 
 namespace pleinair::hal::libav {

@@ -290,7 +290,7 @@ bool isWideColour(const AVFrame& frame) {
                               AV_PIX_FMT_FLAG_HWACCEL | AV_PIX_FMT_FLAG_BAYER |
                               AV_PIX_FMT_FLAG_BITSTREAM;
   if (layout == nullptr || (layout->flags & kNever) != 0) return false;
-  const bool isDeep = !isRgb(*layout) && layout->nb_components >= 3 && layout->comp[0].depth > 8;
+  const bool isDeep = layout->nb_components >= 3 && layout->comp[0].depth > 8;
   return isDeep || isHdr(frame) || isWideGamut(frame);
 }
 

@@ -7,7 +7,7 @@
 namespace pleinair::hal::libav {
 
 /// Whether a frame holds what 8-bit sRGB does not: HDR (PQ or HLG), a wider gamut (BT.2020,
-/// Display P3, DCI-P3), or Y'CbCr of more than 8 bits. Frames with alpha never do: they are
+/// Display P3, DCI-P3), or more than 8 bits a channel. Frames with alpha never do: they are
 /// composited in 8 bits.
 bool isWideColour(const AVFrame& frame);
 

@@ -86,8 +86,8 @@ Result<const OutputKind*> outputKindOf(const std::string& target) {
         "give " + kindsText() + "; a folder of this name is ./" + target + " or " + target + "/"));
   }
   return tl::unexpected(invalid(target, "does not say what to write",
-                                "end it in .mp4, .mkv, .y4m or .png (numbered: out/%04d.png), or "
-                                "give a folder"));
+                                "end it in .mp4, .mkv, .y4m, " + writtenPictureEndings() +
+                                    " (numbered: out/%04d.png), or give a folder"));
 }
 
 Result<std::unique_ptr<Output>> openOutput(const std::string& target,

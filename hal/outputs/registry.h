@@ -36,8 +36,8 @@ using OutputOptionsByKind = std::map<std::string, OutputOptions, std::less<>>;
 Result<std::unique_ptr<Output>> openOutput(const std::string& target,
                                            const OutputOptionsByKind& options = {});
 
-/// The output to files that `path` names: a movie (.mp4, .mkv, .y4m), one .png, a numbered pattern
-/// such as "out/%04d.png", or a folder of numbered PNGs (one that ends in a slash, or has a
+/// The output to files that `path` names: a movie (.mp4, .mkv, .y4m), one picture, a numbered
+/// pattern such as "out/%04d.png", or a folder of numbered PNGs (one that ends in a slash, or has a
 /// separator and no ending). Opens nothing yet. Errors: kInvalidArgument (a device's place; an
 /// unknown ending: lists those that are known; a bare word).
 Result<std::unique_ptr<MemoryOutput>> openFileOutput(const std::filesystem::path& path);

@@ -88,10 +88,9 @@ Result<void> CameraSelector::check() const {
 Result<OpenedCamera> CameraSelector::open(const StreamRequest& request) {
   if (const Result<void> sound = check(); !sound) return tl::unexpected(sound.error());
   const auto [backendName, name] = choiceOf(choice_);
-  if (choice_ == kAuto) return openFirst(listed(devices()), request);
+  if (choice_ == kAuto) return openFirst(devices(), request);
   if (const SelectableBackend* backend = backendNamed(backendName)) {
-    return name.empty() ? openFirst(listed({backend}), request)
-                        : openNamed(*backend, name, request);
+    return name.empty() ? openFirst({backend}, request) : openNamed(*backend, name, request);
   }
   return openSerial(name, request);
 }
@@ -126,18 +125,36 @@ const SelectableBackend* CameraSelector::backendNamed(std::string_view name) con
   return found == backends_.end() ? nullptr : &*found;
 }
 
-Result<OpenedCamera> CameraSelector::openFirst(Candidates candidates,
-                                               const StreamRequest& request) {
-  sortLastOnesLast(candidates.found);
-  std::vector<Error> reasons = std::move(candidates.problems);
-  for (const Candidate& candidate : candidates.found) {
+Result<OpenedCamera> CameraSelector::openFirst(
+    const std::vector<const SelectableBackend*>& backends, const StreamRequest& request) {
+  std::vector<Error> reasons;
+  const auto tried = [&](const Candidate& candidate) -> std::optional<OpenedCamera> {
     if (candidate.description.problem) {
       reasons.push_back(*candidate.description.problem);
-      continue;
+      return std::nullopt;
     }
     Result<OpenedCamera> opened = start(candidate, request);
-    if (opened) return opened;
+    if (opened) return std::move(*opened);
     reasons.push_back(std::move(opened.error()));
+    return std::nullopt;
+  };
+  std::vector<Candidate> lastOnes;
+  // A back end is asked for its cameras only when those before it have failed: asking a network
+  // takes a second.
+  for (const SelectableBackend* backend : backends) {
+    Candidates candidates = listed({backend});
+    std::ranges::move(candidates.problems, std::back_inserter(reasons));
+    for (Candidate& each : candidates.found) {
+      if (rankOf(each) >= 0) {
+        lastOnes.push_back(std::move(each));
+      } else if (auto opened = tried(each)) {
+        return std::move(*opened);
+      }
+    }
+  }
+  std::ranges::stable_sort(lastOnes, {}, [&](const Candidate& each) { return rankOf(each); });
+  for (const Candidate& each : lastOnes) {
+    if (auto opened = tried(each)) return std::move(*opened);
   }
   return tl::unexpected(noneWorks(choice_, reasons));
 }
@@ -211,14 +228,11 @@ void CameraSelector::wasOfUse(const CameraIdentity& camera) {
   std::erase_if(last_, [&](const CameraIdentity& each) { return isSameCamera(each, camera); });
 }
 
-void CameraSelector::sortLastOnesLast(std::vector<Candidate>& candidates) const {
-  const auto rank = [&](const Candidate& candidate) {
-    const auto found = std::ranges::find_if(last_, [&](const CameraIdentity& each) {
-      return isSameCamera(each, candidate.description.identity);
-    });
-    return found == last_.end() ? std::ptrdiff_t{-1} : std::distance(last_.begin(), found);
-  };
-  std::ranges::stable_sort(candidates, {}, rank);
+std::ptrdiff_t CameraSelector::rankOf(const Candidate& candidate) const {
+  const auto found = std::ranges::find_if(last_, [&](const CameraIdentity& each) {
+    return isSameCamera(each, candidate.description.identity);
+  });
+  return found == last_.end() ? -1 : std::distance(last_.begin(), found);
 }
 
 }  // namespace pleinair::hal

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -88,12 +89,14 @@ class CameraSelector {
   std::vector<const SelectableBackend*> devices() const;
   const SelectableBackend* backendNamed(std::string_view name) const;
 
-  Result<OpenedCamera> openFirst(Candidates candidates, const StreamRequest& request);
+  Result<OpenedCamera> openFirst(const std::vector<const SelectableBackend*>& backends,
+                                 const StreamRequest& request);
   Result<OpenedCamera> openSerial(std::string_view serial, const StreamRequest& request);
   Result<OpenedCamera> openNamed(const SelectableBackend& backend, std::string_view name,
                                  const StreamRequest& request);
   Result<OpenedCamera> start(const Candidate& candidate, const StreamRequest& request);
-  void sortLastOnesLast(std::vector<Candidate>& candidates) const;
+  /// Its place among those that are tried last; −1 for others.
+  std::ptrdiff_t rankOf(const Candidate& candidate) const;
 
   std::vector<SelectableBackend> backends_;
   std::string choice_;

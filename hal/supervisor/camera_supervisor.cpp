@@ -10,7 +10,8 @@ namespace pleinair::hal {
 namespace {
 
 bool isSame(const StreamFormat& a, const StreamFormat& b) {
-  return a.frame == b.frame && a.framePeriod == b.framePeriod && a.frameCount == b.frameCount;
+  return a.frame == b.frame && a.framePeriod == b.framePeriod && a.frameCount == b.frameCount &&
+         a.warning == b.warning;
 }
 
 }  // namespace
@@ -216,7 +217,7 @@ void CameraSupervisor::deliver(SupervisedFrame frame) {
 
 void CameraSupervisor::noteSilence() {
   watchdog_.nothingCame(clock_.now());
-  if (!opened_->isDevice) return;
+  if (!opened_->isDevice || opened_->format.isTriggered) return;
   if (state_ == CameraState::kOpening) {
     if (watchdog_.silence() < options_.firstFrameLimit) return;
     selector_.putLast(*camera_);

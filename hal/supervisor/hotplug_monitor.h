@@ -31,8 +31,10 @@ class DeviceEvents {
   virtual void interrupt() = 0;
 };
 
-/// udev's events of the subsystems of cameras, displays and keyboards. Errors: kUnsupported (built
-/// without udev), kIo (udev does not run).
+/// Events of the subsystems of cameras, displays and keyboards: the kernel's and udev's. udev's do
+/// not reach a process that has no network (a network namespace of its own); the kernel's do, but
+/// come before the node has its name and permissions. Hence a kernel's event is reported twice, at
+/// once and half a second later. Errors: kUnsupported (built without udev), kIo (no netlink).
 Result<std::unique_ptr<DeviceEvents>> udevEvents();
 
 /// Reports each event, for example to CameraSupervisor::devicesChanged(), from its own thread. If

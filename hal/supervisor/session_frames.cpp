@@ -12,7 +12,8 @@ FrameCounts FrameCounts::operator+(const FrameCounts& other) const {
           .lostInStall = lostInStall + other.lostInStall,
           .corrupt = corrupt + other.corrupt,
           .incomplete = incomplete + other.incomplete,
-          .misTimed = misTimed + other.misTimed};
+          .misTimed = misTimed + other.misTimed,
+          .link = link + other.link};
 }
 
 std::variant<SupervisedFrame, FrameRefusal> SessionFrames::take(CapturedFrame frame, TimePoint now,
@@ -22,6 +23,7 @@ std::variant<SupervisedFrame, FrameRefusal> SessionFrames::take(CapturedFrame fr
   waiting_.underruns += underruns;
   waiting_.dropped += underruns + (isStalled ? 0 : lost);
   waiting_.lostInStall += isStalled ? lost : 0;
+  waiting_.link = waiting_.link + frame.linkBefore;
   if (const auto refusal = refusalOf(frame, now)) {
     switch (*refusal) {
       case FrameRefusal::kCorrupt:

@@ -34,6 +34,7 @@ struct FrameCounts {
   std::uint64_t corrupt = 0;
   std::uint64_t incomplete = 0;
   std::uint64_t misTimed = 0;
+  LinkCounts link;  ///< packets, and no frames
   /// All frames that the camera is known to have made.
   std::uint64_t made() const {
     return delivered + dropped + lostInStall + corrupt + incomplete + misTimed;

@@ -1,9 +1,13 @@
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <libudev.h>
 #include <poll.h>
@@ -33,43 +37,45 @@ Error failed(std::string problem, int errnoValue) {
                     "devices that are plugged in are found again all the same, if later");
 }
 
+/// udev sets the name and the permissions of a node within this.
+constexpr int kSettlingMilliseconds = 500;
+
 class UdevEvents final : public DeviceEvents {
  public:
   Result<void> open() {
     context_.reset(udev_new());
     if (!context_) return tl::unexpected(failed("cannot open", ENOMEM));
-    // udev's events, not the kernel's, because only then the node has its name and permissions.
-    monitor_.reset(udev_monitor_new_from_netlink(context_.get(), "udev"));
-    if (!monitor_ || !interrupted_) return tl::unexpected(failed("cannot listen", errno));
-    for (const char* subsystem : {"video4linux", "usb", "drm", "input"}) {
-      const int error =
-          udev_monitor_filter_add_match_subsystem_devtype(monitor_.get(), subsystem, nullptr);
-      if (error < 0) return tl::unexpected(failed("cannot choose among events", -error));
+    for (auto [monitor, group] : {std::pair(&udev_, "udev"), std::pair(&kernel_, "kernel")}) {
+      if (const Result<void> listening = listen(*monitor, group); !listening) return listening;
     }
-    const int error = udev_monitor_enable_receiving(monitor_.get());
-    if (error < 0) return tl::unexpected(failed("cannot listen", -error));
     return {};
   }
 
   Result<DeviceEvent> next() override {
-    std::array<pollfd, 2> sources{
-        pollfd{.fd = udev_monitor_get_fd(monitor_.get()), .events = POLLIN, .revents = 0},
+    std::array<pollfd, 3> sources{
+        pollfd{.fd = udev_monitor_get_fd(udev_.get()), .events = POLLIN, .revents = 0},
+        pollfd{.fd = udev_monitor_get_fd(kernel_.get()), .events = POLLIN, .revents = 0},
         pollfd{.fd = interrupted_.get(), .events = POLLIN, .revents = 0}};
     for (;;) {
-      if (poll(sources.data(), sources.size(), -1) < 0) {
+      const int count = poll(sources.data(), sources.size(), unsettled_.empty() ? -1 : settling());
+      if (count < 0) {
         if (errno == EINTR) continue;
         return tl::unexpected(failed("cannot wait", errno));
       }
-      if (sources[1].revents != 0) {
+      if (sources[2].revents != 0) {
         return tl::unexpected(
             Error{.kind = ErrorKind::kNotFound, .subject = "udev", .problem = "was interrupted"});
       }
-      if ((sources[0].revents & POLLIN) == 0) return tl::unexpected(failed("cannot wait", EIO));
-      const UdevHandle<udev_device> device(udev_monitor_receive_device(monitor_.get()));
-      if (!device) continue;  // filtered out, or the socket's buffer overran
-      return DeviceEvent{.action = textOf(udev_device_get_action(device.get())),
-                         .subsystem = textOf(udev_device_get_subsystem(device.get())),
-                         .node = textOf(udev_device_get_devnode(device.get()))};
+      if (count == 0) return settled();
+      for (udev_monitor* each : {udev_.get(), kernel_.get()}) {
+        const short events = sources.at(each == udev_.get() ? 0 : 1).revents;
+        if (events == 0) continue;
+        if ((events & POLLIN) == 0) return tl::unexpected(failed("cannot wait", EIO));
+        const auto event = received(each);
+        if (!event) continue;  // filtered out, or the socket's buffer overran
+        if (each == kernel_.get()) settleLater(*event);
+        return *event;
+      }
     }
   }
 
@@ -79,8 +85,51 @@ class UdevEvents final : public DeviceEvents {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  Result<void> listen(UdevHandle<udev_monitor>& monitor, const char* group) {
+    monitor.reset(udev_monitor_new_from_netlink(context_.get(), group));
+    if (!monitor || !interrupted_) return tl::unexpected(failed("cannot listen", errno));
+    for (const char* subsystem : {"video4linux", "usb", "drm", "input"}) {
+      const int error =
+          udev_monitor_filter_add_match_subsystem_devtype(monitor.get(), subsystem, nullptr);
+      if (error < 0) return tl::unexpected(failed("cannot choose among events", -error));
+    }
+    const int error = udev_monitor_enable_receiving(monitor.get());
+    if (error < 0) return tl::unexpected(failed("cannot listen", -error));
+    return {};
+  }
+
+  static std::optional<DeviceEvent> received(udev_monitor* monitor) {
+    const UdevHandle<udev_device> device(udev_monitor_receive_device(monitor));
+    if (!device) return std::nullopt;
+    return DeviceEvent{.action = textOf(udev_device_get_action(device.get())),
+                       .subsystem = textOf(udev_device_get_subsystem(device.get())),
+                       .node = textOf(udev_device_get_devnode(device.get()))};
+  }
+
+  /// The last event of each subsystem comes again.
+  void settleLater(const DeviceEvent& event) {
+    std::erase_if(unsettled_,
+                  [&](const DeviceEvent& each) { return each.subsystem == event.subsystem; });
+    unsettled_.push_back(event);
+    settledAt_ = Clock::now() + std::chrono::milliseconds(kSettlingMilliseconds);
+  }
+  int settling() const {
+    const auto rest = std::chrono::ceil<std::chrono::milliseconds>(settledAt_ - Clock::now());
+    return static_cast<int>(std::clamp<std::int64_t>(rest.count(), 0, kSettlingMilliseconds));
+  }
+  DeviceEvent settled() {
+    DeviceEvent event = std::move(unsettled_.front());
+    unsettled_.erase(unsettled_.begin());
+    return event;
+  }
+
   UdevHandle<udev> context_;
-  UdevHandle<udev_monitor> monitor_;
+  UdevHandle<udev_monitor> udev_;
+  UdevHandle<udev_monitor> kernel_;
+  std::vector<DeviceEvent> unsettled_;  ///< events of the kernel that come again
+  Clock::time_point settledAt_;
   FileDescriptor interrupted_{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
 };
 

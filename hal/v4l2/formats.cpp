@@ -32,4 +32,47 @@ ColorEncoding colorEncodingOf(std::uint32_t colorspace, std::uint32_t encoding,
                                                                 : ColorRange::kLimited};
 }
 
+ColorEncoding withColorimetry(ColorEncoding encoding, std::uint32_t colorspace,
+                              std::uint32_t transfer) {
+  switch (colorspace) {
+    case V4L2_COLORSPACE_DEFAULT:
+      return encoding;
+    case V4L2_COLORSPACE_REC709:
+    case V4L2_COLORSPACE_SRGB:
+    case V4L2_COLORSPACE_JPEG:
+      encoding.primaries = ColorPrimaries::kBt709;
+      break;
+    case V4L2_COLORSPACE_SMPTE170M:
+    case V4L2_COLORSPACE_SMPTE240M:
+      encoding.primaries = ColorPrimaries::kSmpte170m;
+      break;
+    case V4L2_COLORSPACE_470_SYSTEM_BG:
+      encoding.primaries = ColorPrimaries::kBt470bg;
+      break;
+    case V4L2_COLORSPACE_BT2020:
+      encoding.primaries = ColorPrimaries::kBt2020;
+      break;
+    default:
+      encoding.primaries = ColorPrimaries::kOther;
+  }
+  if (transfer == V4L2_XFER_FUNC_DEFAULT) transfer = V4L2_MAP_XFER_FUNC_DEFAULT(colorspace);
+  switch (transfer) {
+    case V4L2_XFER_FUNC_709:
+      encoding.transfer = ColorTransfer::kBt709;
+      break;
+    case V4L2_XFER_FUNC_SRGB:
+      encoding.transfer = ColorTransfer::kSrgb;
+      break;
+    case V4L2_XFER_FUNC_NONE:
+      encoding.transfer = ColorTransfer::kLinear;
+      break;
+    case V4L2_XFER_FUNC_SMPTE2084:
+      encoding.transfer = ColorTransfer::kPq;
+      break;
+    default:
+      encoding.transfer = ColorTransfer::kOther;
+  }
+  return encoding;
+}
+
 }  // namespace pleinair::hal::v4l2

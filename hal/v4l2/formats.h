@@ -16,4 +16,9 @@ std::string fourccText(std::uint32_t fourcc);
 ColorEncoding colorEncodingOf(std::uint32_t colorspace, std::uint32_t encoding,
                               std::uint32_t quantization);
 
+/// `encoding` with the primaries and the transfer function of a V4L2 colour space; `transfer` may
+/// be the default one.
+ColorEncoding withColorimetry(ColorEncoding encoding, std::uint32_t colorspace,
+                              std::uint32_t transfer);
+
 }  // namespace pleinair::hal::v4l2

@@ -12,6 +12,7 @@
 #include "pipeline/engine/quality_levels.h"
 #include "pipeline/gpu/aspect_fill.h"
 #include "pipeline/marks/marks_shaders.h"
+#include "pipeline/overlay/overlay_shaders.h"
 #include "pipeline/present/present_shaders.h"
 #include "pipeline/styles/registry.h"
 
@@ -26,6 +27,7 @@ gpu::ShaderLibrary makeLibrary(const PainterOptions& options) {
   library.add(gpu::presentShaders());
   library.add(gpu::sceneShaders());
   library.add(gpu::marksShaders());
+  library.add(gpu::overlayShaders());
   styles::addStyleShaders(library);
   library.setCancellation(options.isCancelled);
   return library;
@@ -87,13 +89,14 @@ FramePipeline::FramePipeline(const PainterOptions& options, PainterGl gl)
       readsSurfaces_(options.readsSurfaces),
       library_(makeLibrary(options)),
       timer_(options.passTiming, &gl_.info),
-      uploader_(library_),
+      frames_(library_, gl_.info, testHook_),
       renderer_(library_, options.scene),
       bufferViewer_(library_),
       style_(styles::makeStyle(options.style, library_)),
       defaults_(style_->parameters()),
       light_(makeLightEstimator(options)) {
   hal::orThrow(tracking::checkTagFamily(scene_.tagFamily));
+  if (options.overlay) overlay_.emplace(library_, scene_, options.machine, pictureSize_);
   for (const QualityPlan& plan : qualityPlans()) {
     if (levels_.empty() || options.qualityLevels) levels_.push_back({sizeAt(pictureSize_, plan)});
   }
@@ -120,10 +123,12 @@ void FramePipeline::warmUp(const hal::FrameFormat& expected) {
 
 void FramePipeline::warmUp(const Level& level, const hal::Image& blank) {
   const gpu::Texture& camera =
-      uploader_.upload(blank.view(), level.size, fitTo(level, blank.size()));
+      frames_.uploader().upload(blank.view(), level.size, fitTo(level, blank.size()));
   renderer_.warmUp(level.size);
-  scene::ArFrame frame = renderer_.compose(camera, scene::assumedCamera(level.size),
-                                           scene::PoseSet{}, 0, hal::TimePoint{});
+  // As every frame, so that a style makes what it needs for the scene's models.
+  scene::ArFrame frame =
+      renderer_.compose(camera, scene::assumedCamera(level.size), scene::PoseSet{}, 0,
+                        hal::TimePoint{}, {.surfaces = style_->needs().surfaces});
   frame.fullSize = pictureSize_;
   style_->paint(frame, {});
 }
@@ -186,6 +191,7 @@ hal::Result<void> FramePipeline::adaptTo(hal::FrameSize frameSize) {
     tracker_.emplace(camera, scene_.tags, options);
   }
   const tracking::CameraModel fitted = scene::fittedCamera(camera, pictureSize_);
+  fullCamera_ = fitted;
   for (Level& level : levels_) {
     level.camera = fitted.resampled(pixelsOfFull(level), glm::dvec2(0.0), level.size);
   }
@@ -208,10 +214,18 @@ hal::Result<Picture> FramePipeline::paint(const hal::CapturedFrame& frame,
                                           const PaintParameters& parameters) {
   if (auto valid = resetMonitor_.check(); !valid) return tl::unexpected(std::move(valid.error()));
   try {
-    return paintChecked(frame, parameters);
+    hal::Result<Picture> painted = paintChecked(frame, parameters);
+    if (!painted) forgetSurfaces();
+    return painted;
   } catch (const hal::Failure& error) {  // not enough memory for a new size or layout
+    forgetSurfaces();
     return tl::unexpected(orLoss(error.error()));
   }
+}
+
+/// The picture for which they were given was not painted.
+void FramePipeline::forgetSurfaces() {
+  for (auto& [number, readback] : readbacks_) readback.next.reset();
 }
 
 hal::Error FramePipeline::orLoss(const hal::Error& error) {
@@ -240,19 +254,23 @@ hal::Result<Picture> FramePipeline::paintChecked(const hal::CapturedFrame& frame
   style_->setParameters(parameters.style);
   timer_.beginFrame();
   tracking::TrackingResult tracked;
-  luma_.take(frame.image);
+  const scene::ArFrameNeeds needs = needsOf(parameters.view);
+  std::optional<hal::FrameMapping> mapped;  // for as long as trackers read the frame in place
+  takeLuma(frame, needs, mapped);
   const Level& level = levels_[parameters.quality];
   {
     const auto scope = timer_.measure("camera picture");
-    camera_ = &uploader_.upload(frame.image, level.size, fitTo(level, frame.image.format.size));
+    camera_ = &frames_.show(frame, level.size, fitTo(level, frame.image.format.size));
   }
-  const scene::ArFrameNeeds needs = needsOf(parameters.view);
   const tracking::ImageMotion* const motion = measureMotion(frame.sequence, needs);
   if (motion != nullptr && motion->isCut) forgetPast();
   if (tracker_) tracked = tracker_->track(luma_, frame.captureTime);
+  takeOverlay(parameters);
   const scene::ArFrame composed = compose(frame, tracked, level, needs, motion);
   composed_ = composed.colour;
   picture_ = &paintView(composed, parameters);
+  const bool hasOverlay = overlay_ && overlay_->hasContent() && parameters.view.empty();
+  if (hasOverlay) drawOverlay(composed, tracked);
   submitReadbacks(frame);
   glFlush();  // the GPU works on while the next frame is tracked
   return Picture{.texture = picture_->name(),
@@ -260,7 +278,59 @@ hal::Result<Picture> FramePipeline::paintChecked(const hal::CapturedFrame& frame
                  .sequence = frame.sequence,
                  .captureTime = frame.captureTime,
                  .tracking = tracked,
-                 .quality = parameters.quality};
+                 .quality = parameters.quality,
+                 .overlay = hasOverlay ? std::optional(overlay_->state()) : std::nullopt};
+}
+
+/// Takes another overlay before the models are drawn, because it says which parts are there.
+void FramePipeline::takeOverlay(const PaintParameters& parameters) {
+  if (!overlay_ || !overlay_->take(parameters.overlay)) return;
+  if (overlay_->machine()) renderer_.hideParts(*overlay_->machine(), overlay_->hiddenParts());
+}
+
+/// Whether a tag was seen in this frame that places the machine: its own, or one of the world.
+bool FramePipeline::isMachineSeen(const tracking::TrackingResult& tracked) const {
+  if (!overlay_->machine()) return false;
+  const std::optional<int>& id = scene_.models[*overlay_->machine()].tagId;
+  const bool isOwnSeen =
+      id && std::ranges::any_of(tracked.tags, [&](const auto& tag) {
+        return tag.id == *id && tag.source == tracking::PoseSource::kSeen && tag.cameraFromTag;
+      });
+  if (isOwnSeen) return true;
+  const bool isInWorld = !id || scene_.findTag(*id)->worldFromTag;
+  return isInWorld && tracked.cameraFromWorld && tracked.worldSource == tracking::PoseSource::kSeen;
+}
+
+void FramePipeline::drawOverlay(const scene::ArFrame& frame,
+                                const tracking::TrackingResult& tracked) {
+  const auto scope = timer_.measure("overlay");
+  const std::optional<std::size_t> machine = overlay_->machine();
+  picture_ = &overlay_->draw({.painted = picture_,
+                              .ar = &frame,
+                              .camera = &*fullCamera_,
+                              .machine = machine ? renderer_.placeOf(*machine) : std::nullopt,
+                              .isMachineSeen = isMachineSeen(tracked),
+                              .seesOtherMachine = tracked.counted.unknownTags > 0});
+}
+
+/// Luma for the trackers, if any is at work. Memory that a device shares may be uncached, where the
+/// processor reads 30 times slower and trackers read several times: it is read once.
+void FramePipeline::takeLuma(const hal::CapturedFrame& frame, scene::ArFrameNeeds needs,
+                             std::optional<hal::FrameMapping>& mapped) {
+  const bool isRead = tracker_ || needs.canvas || needs.measuredMotion;
+  if (!isRead) {
+    cameraPath_.luma = LumaSource::kNone;
+    return;
+  }
+  mapped.emplace(frame.image.map());
+  if (!frame.buffer) {
+    luma_.take(mapped->view());
+    cameraPath_.luma = LumaSource::kInPlace;
+    return;
+  }
+  luma_.takeCopy(mapped->view());
+  cameraPath_.luma = LumaSource::kCopy;
+  mapped.reset();
 }
 
 scene::ArFrameNeeds FramePipeline::needsOf(const std::string& view) const {
@@ -281,7 +351,7 @@ scene::ArFrame FramePipeline::compose(const hal::CapturedFrame& frame,
   }
   std::span<const scene::PlaceLighting> lights;
   if (light_) {
-    light_->follow(frame.image, tracked, frame.captureTime);
+    light_->follow(frame.image.map().view(), tracked, frame.captureTime);
     lights = light_->lights();
   }
   scene::ArFrame composed = renderer_.compose(*camera_, *level.camera,
@@ -292,7 +362,7 @@ scene::ArFrame FramePipeline::compose(const hal::CapturedFrame& frame,
   composed.fullSize = pictureSize_;
   if (motion != nullptr) addMotion(*motion, needs, composed);
   if (motion != nullptr && needs.segments) {
-    addSegments(frame.image, *motion, composed);
+    addSegments(frame.image.map().view(), *motion, composed);
   } else {
     segmenter_.reset();
   }
@@ -339,6 +409,7 @@ void FramePipeline::forgetPast() {
   motion_.reset();
   if (light_) light_->reset();
   if (tracker_) tracker_->reset();
+  if (overlay_) overlay_->reset();
 }
 
 const gpu::Texture& FramePipeline::paintView(const scene::ArFrame& frame,
@@ -358,28 +429,53 @@ const gpu::Texture& FramePipeline::paintView(const scene::ArFrame& frame,
 void FramePipeline::submitReadbacks(const hal::CapturedFrame& frame) {
   const auto scope = timer_.measure("read back");
   for (auto& [id, readback] : readbacks_) {
+    if (const auto surface = std::exchange(readback.next, std::nullopt)) {
+      readback.drawer->submit(*picture_, pictureSize_, surface->id);
+      readback.inFlight.push_back({frame.sequence, frame.captureTime, paintings_, surface});
+      continue;
+    }
     if (!readback.ring.hasRoom()) {
       ++readback.skipped;
       continue;
     }
     readback.ring.submit(*picture_, pictureSize_);
-    readback.inFlight.push_back({frame.sequence, frame.captureTime, paintings_});
+    readback.inFlight.push_back({frame.sequence, frame.captureTime, paintings_, std::nullopt});
   }
   ++paintings_;
 }
 
 /// Copies a read-back's oldest output frame with `copy`, Readback::poll() or Readback::wait().
 hal::Answer FramePipeline::copyOldest(int number, OutputFrame& frame,
-                                      hal::Answer (present::Readback::*copy)(hal::Image&)) {
+                                      hal::Answer (present::Readback::*copy)(hal::Image&),
+                                      bool waits) {
   if (resetMonitor_.loss()) return tl::unexpected(*resetMonitor_.loss());
+  frames_.releaseRead();
   OpenReadback& readback = readbacks_.at(number);
-  const hal::Answer copied = (readback.ring.*copy)(frame.image);
+  frame.surface.reset();
+  const bool isDrawn = !readback.inFlight.empty() && readback.inFlight.front().surface;
+  const hal::Answer copied =
+      isDrawn ? takeDrawn(readback, frame, waits) : (readback.ring.*copy)(frame.image);
   if (copied.hasError()) return tl::unexpected(orLoss(copied.error()));
   if (!copied.isYes()) return false;
+  frames_.releaseRead();
   frame.sequence = readback.inFlight.front().sequence;
   frame.captureTime = readback.inFlight.front().captureTime;
   readback.inFlight.erase(readback.inFlight.begin());
   return true;
+}
+
+/// The oldest one, where it was drawn into a surface.
+hal::Answer FramePipeline::takeDrawn(OpenReadback& readback, OutputFrame& frame, bool waits) {
+  const hal::Answer isReady =
+      readback.drawer->isReadyWithin(waits ? testHook_.patience : hal::Duration::zero());
+  if (isReady.hasError() || !isReady.isYes()) return isReady;
+  readback.drawer->pop();
+  frame.surface = readback.inFlight.front().surface;
+  return true;
+}
+
+hal::Answer FramePipeline::OpenReadback::isReadyWithin(hal::Duration limit) const {
+  return inFlight.front().surface ? drawer->isReadyWithin(limit) : ring.isReadyWithin(limit);
 }
 
 hal::Result<hal::Image> FramePipeline::read(const gpu::Texture* texture) {

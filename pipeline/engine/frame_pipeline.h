@@ -10,13 +10,15 @@
 
 #include "pipeline/engine/painter.h"
 #include "pipeline/gpu/aspect_fill.h"
+#include "pipeline/gpu/camera_frames.h"
 #include "pipeline/gpu/egl_context.h"
-#include "pipeline/gpu/frame_upload.h"
 #include "pipeline/gpu/gpu_loss.h"
 #include "pipeline/gpu/host_state.h"
 #include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/shader_library.h"
+#include "pipeline/overlay/overlay_renderer.h"
 #include "pipeline/present/readback.h"
+#include "pipeline/present/surface_drawer.h"
 #include "pipeline/scene/light/light_estimator.h"
 #include "pipeline/scene/render/ar_frame_renderer.h"
 #include "pipeline/scene/render/buffer_views.h"
@@ -63,11 +65,18 @@ class FramePipeline {
     struct Stamp {
       std::uint64_t sequence = 0;
       hal::TimePoint captureTime;
-      std::uint64_t painting = 0;  ///< number of the painting, whatever its frame
+      std::uint64_t painting = 0;               ///< number of the painting, whatever its frame
+      std::optional<hal::LentSurface> surface;  ///< that it is drawn into; unset: read back
     };
-    explicit OpenReadback(present::Readback readback) : ring(std::move(readback)) {}
+    OpenReadback(present::Readback readback, int turns)
+        : ring(std::move(readback)), quarterTurns(turns) {}
+    hal::Answer isReadyWithin(hal::Duration limit) const;
+
     present::Readback ring;
-    std::vector<Stamp> inFlight;  ///< oldest first
+    int quarterTurns;
+    std::optional<present::SurfaceDrawer> drawer;  ///< once surfaces were imported
+    std::optional<hal::LentSurface> next;          ///< for the next picture
+    std::vector<Stamp> inFlight;                   ///< oldest first
     std::uint64_t skipped = 0;
   };
 
@@ -84,6 +93,8 @@ class FramePipeline {
   hal::Result<void> checkQuality(std::size_t quality) const;
   hal::Result<void> checkFrame(const hal::CapturedFrame& frame, const PaintParameters& parameters);
   hal::Result<void> adaptTo(hal::FrameSize frameSize);
+  void takeLuma(const hal::CapturedFrame& frame, scene::ArFrameNeeds needs,
+                std::optional<hal::FrameMapping>& mapped);
   glm::dvec2 pixelsOfFull(const Level& level) const;
   gpu::AspectFill fitTo(const Level& level, hal::FrameSize frameSize) const;
   scene::ArFrame compose(const hal::CapturedFrame& frame, const tracking::TrackingResult& tracked,
@@ -96,11 +107,16 @@ class FramePipeline {
   void addSegments(const hal::ImageView& image, const tracking::ImageMotion& motion,
                    scene::ArFrame& composed);
   void forgetPast();
+  void takeOverlay(const PaintParameters& parameters);
+  bool isMachineSeen(const tracking::TrackingResult& tracked) const;
+  void drawOverlay(const scene::ArFrame& frame, const tracking::TrackingResult& tracked);
   const gpu::Texture& paintView(const scene::ArFrame& frame, const PaintParameters& parameters);
   hal::Result<hal::Image> read(const gpu::Texture* texture);
   hal::Answer copyOldest(int number, OutputFrame& frame,
-                         hal::Answer (present::Readback::*copy)(hal::Image&));
+                         hal::Answer (present::Readback::*copy)(hal::Image&), bool waits);
+  void forgetSurfaces();
   void submitReadbacks(const hal::CapturedFrame& frame);
+  hal::Answer takeDrawn(OpenReadback& readback, OutputFrame& frame, bool waits);
   /// Gives the loss of the GPU if that caused `error`, otherwise `error`.
   hal::Error orLoss(const hal::Error& error);
   /// Implements Painter::paint().
@@ -118,7 +134,8 @@ class FramePipeline {
   bool readsSurfaces_;
   gpu::ShaderLibrary library_;
   gpu::PassTimer timer_;
-  gpu::FrameUploader uploader_;
+  gpu::CameraFrames frames_;
+  CameraPath cameraPath_;
   scene::ArFrameRenderer renderer_;
   scene::BufferViewer bufferViewer_;
   std::unique_ptr<styles::Style> style_;
@@ -129,7 +146,9 @@ class FramePipeline {
   tracking::CanvasMotion motion_;
   tracking::ImageMotionEstimator imageMotion_;
   tracking::ImageSegmenter segmenter_;
-  std::optional<scene::LightEstimator> light_;  // if the scene's light is estimated
+  std::optional<scene::LightEstimator> light_;       // if the scene's light is estimated
+  std::optional<overlay::OverlayRenderer> overlay_;  // if there is a machine
+  std::optional<tracking::CameraModel> fullCamera_;  // of the full picture
   std::vector<scene::TagSighting> sightings_;
   std::map<int, OpenReadback> readbacks_;
   int nextReadback_ = 0;

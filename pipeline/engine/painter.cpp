@@ -85,7 +85,8 @@ int Painter::openReadback(const hal::FrameFormat& format, int quarterTurns) {
   try {
     present::Readback ring(p.library_, format, kReadbackDepth, p.testHook_, quarterTurns);
     for (const FramePipeline::Level& level : p.levels_) ring.warmUp(level.size);
-    p.readbacks_.emplace(p.nextReadback_, std::move(ring));
+    p.readbacks_.emplace(p.nextReadback_,
+                         FramePipeline::OpenReadback(std::move(ring), quarterTurns));
     return p.nextReadback_++;
   } catch (const hal::Failure& error) {
     throw hal::Failure(p.orLoss(error.error()));
@@ -100,14 +101,44 @@ void Painter::closeReadback(int readback) {
   assert(closed == 1);
 }
 
+gpu::ImportSupport Painter::importSupport() const {
+  const ContextScope scope = pipeline_->enter();
+  return gpu::importSupport(pipeline_->testHook_);
+}
+
+hal::Result<void> Painter::importSurfaces(int readback, std::span<const hal::GpuSurface> surfaces) {
+  FramePipeline& p = *pipeline_;
+  const ContextScope scope = p.enter();
+  if (auto valid = p.resetMonitor_.check(); !valid) return valid;
+  FramePipeline::OpenReadback& open = p.readbacks_.at(readback);
+  open.next.reset();
+  try {
+    if (!open.drawer) {
+      open.drawer.emplace(p.library_, open.ring.format().size, open.quarterTurns, p.testHook_);
+    }
+    std::vector<hal::FrameSize> sizes;
+    for (const FramePipeline::Level& level : p.levels_) sizes.push_back(level.size);
+    open.drawer->import(surfaces, sizes);
+    return {};
+  } catch (const hal::Failure& error) {
+    return tl::unexpected(p.orLoss(error.error()));
+  }
+}
+
+void Painter::drawNextInto(int readback, const hal::LentSurface& surface) {
+  FramePipeline::OpenReadback& open = pipeline_->readbacks_.at(readback);
+  assert(open.drawer && open.ring.format().pixelFormat == hal::PixelFormat::kRgba8);
+  open.next = surface;
+}
+
 hal::Answer Painter::poll(int readback, OutputFrame& frame) {
   const ContextScope scope = pipeline_->enter();
-  return pipeline_->copyOldest(readback, frame, &present::Readback::poll);
+  return pipeline_->copyOldest(readback, frame, &present::Readback::poll, false);
 }
 
 hal::Answer Painter::wait(int readback, OutputFrame& frame) {
   const ContextScope scope = pipeline_->enter();
-  return pipeline_->copyOldest(readback, frame, &present::Readback::wait);
+  return pipeline_->copyOldest(readback, frame, &present::Readback::wait, true);
 }
 
 hal::Answer Painter::waitForAny(hal::Duration limit) {
@@ -123,7 +154,7 @@ hal::Answer Painter::waitForAny(hal::Duration limit) {
     if (isOlder) oldest = &each;
   }
   if (oldest == nullptr) return false;
-  hal::Answer isReady = oldest->ring.isReadyWithin(limit);
+  hal::Answer isReady = oldest->isReadyWithin(limit);
   if (isReady.hasError()) return tl::unexpected(p.orLoss(isReady.error()));
   return isReady;
 }
@@ -176,6 +207,11 @@ hal::Result<std::vector<marks::Anchor>> Painter::anchors() const {
   return anchors;
 }
 
+std::span<const overlay::PlacedLabel> Painter::overlayLabels() const {
+  if (!pipeline_->overlay_) return {};
+  return pipeline_->overlay_->labels();
+}
+
 hal::Result<std::optional<hal::Image>> Painter::movers() const {
   FramePipeline& p = *pipeline_;
   const ContextScope scope = p.enter();
@@ -191,6 +227,23 @@ hal::Result<std::optional<hal::Image>> Painter::movers() const {
   } catch (const hal::Failure& error) {
     return tl::unexpected(p.orLoss(error.error()));
   }
+}
+
+std::string_view toString(LumaSource source) {
+  switch (source) {
+    case LumaSource::kNone:
+      return "none";
+    case LumaSource::kInPlace:
+      return "in place";
+    case LumaSource::kCopy:
+      return "copy";
+  }
+  return "unknown";
+}
+
+const CameraPath& Painter::cameraPath() const {
+  pipeline_->cameraPath_.frames = pipeline_->frames_.status();
+  return pipeline_->cameraPath_;
 }
 
 void Painter::reset() {

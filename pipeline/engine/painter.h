@@ -14,10 +14,14 @@
 #include "hal/captured_frame.h"
 #include "hal/error.h"
 #include "hal/image.h"
+#include "hal/surface.h"
+#include "pipeline/gpu/camera_frames.h"
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/gpu/gpu_loss.h"
+#include "pipeline/gpu/imported_texture.h"
 #include "pipeline/gpu/pass_timer.h"
 #include "pipeline/marks/anchor.h"
+#include "pipeline/overlay/overlay_renderer.h"
 #include "pipeline/scene/description/scene.h"
 #include "pipeline/scene/render/surface_snapshot.h"
 #include "pipeline/tracking/pose/tracker.h"
@@ -68,6 +72,11 @@ struct PainterOptions {
   bool qualityLevels = false;
   /// Whether surfaces() may be called; costs a pass over the models for styles without marks.
   bool readsSurfaces = false;
+  /// Whether PaintParameters::overlay may be set.
+  bool overlay = false;
+  /// The model of the scene (index) that overlays are about; unset: there is only their
+  /// instruction.
+  std::optional<std::size_t> machine = std::nullopt;
   /// Called before each program that the constructor compiles, which takes up to 20 s without a
   /// shader cache in all: true ends it with a hal::Failure (kCancelled). Null: it cannot be
   /// cancelled.
@@ -83,6 +92,23 @@ struct PaintParameters {
   /// Index into qualityLevels(). A change keeps the history: the painting goes on, softer or
   /// sharper.
   std::size_t quality = 0;
+  /// What is drawn over the finished picture, and over no other view: a step of a procedure, for
+  /// PainterOptions::machine. Made for the full picture's size. Null: nothing.
+  std::shared_ptr<const overlay::OverlayContent> overlay = nullptr;
+};
+
+/// Where trackers have the luma of a frame from.
+enum class LumaSource {
+  kNone,     ///< nothing tracks
+  kInPlace,  ///< the frame's own memory
+  kCopy,     ///< one copy of it, since memory that a device shares may be slow to read
+};
+std::string_view toString(LumaSource source);
+
+/// How the frames of the camera reach the GPU and the trackers.
+struct CameraPath {
+  gpu::FramePathStatus frames;
+  LumaSource luma = LumaSource::kNone;
 };
 
 /// A debug view, which can be painted instead of the finished picture.
@@ -108,11 +134,15 @@ struct Picture {
   hal::TimePoint captureTime;
   tracking::TrackingResult tracking;  ///< in px of the captured frame
   std::size_t quality = 0;            ///< index into qualityLevels()
+  /// What became of PaintParameters::overlay; unset where there was none.
+  std::optional<overlay::OverlayState> overlay = std::nullopt;
 };
 
 /// A picture in memory, scaled and converted, as a read-back of the Painter gives it.
 struct OutputFrame {
-  hal::Image image;
+  hal::Image image;  ///< undefined where it was drawn into `surface`
+  /// The one that has it, complete; unset: `image` has.
+  std::optional<hal::LentSurface> surface = std::nullopt;
   std::uint64_t sequence = 0;
   hal::TimePoint captureTime;
 };
@@ -156,6 +186,18 @@ class Painter {
   /// Closes a read-back, at any time, and drops its output frames in flight; other read-backs are
   /// not affected. Precondition, here and below: it is open.
   void closeReadback(int readback);
+
+  /// The layouts of an output's surfaces that this Painter can draw pictures into.
+  gpu::ImportSupport importSupport() const;
+  /// Takes surfaces of an output (of the read-back's format, RGBA8) in place of earlier ones, and
+  /// draws a pattern (hal::surfacePatternAt()) into each, to be compared. Waits for the GPU.
+  /// Surfaces that pictures in flight are drawn into may be among the earlier ones. Errors:
+  /// kUnsupported (the driver cannot), kDeviceLost (permanent).
+  hal::Result<void> importSurfaces(int readback, std::span<const hal::GpuSurface> surfaces);
+  /// The next picture is drawn into this one of the surfaces instead of being read back, and its
+  /// output frame has it (OutputFrame::surface). Forgotten if the next paint() fails.
+  void drawNextInto(int readback, const hal::LentSurface& surface);
+
   /// Copies the read-back's oldest output frame into `frame`, reusing its memory; false if none is
   /// ready. Never waits. Permanent error: kDeviceLost.
   hal::Answer poll(int readback, OutputFrame& frame);
@@ -189,6 +231,11 @@ class Painter {
   /// on them, at half the full size. Nothing for a style that tells no movers. Errors: kDeviceLost
   /// (permanent), kUnsupported (a texture that cannot be read).
   hal::Result<std::optional<hal::Image>> movers() const;
+
+  /// How frames have reached the GPU and the trackers so far. Valid until the next paint().
+  const CameraPath& cameraPath() const;
+  /// Where the labels of the last overlay are, in its order; empty where it has none. For measures.
+  std::span<const overlay::PlacedLabel> overlayLabels() const;
 
   /// Discards all history, as after a cut.
   void reset();

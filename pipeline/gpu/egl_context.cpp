@@ -234,9 +234,12 @@ class OpenContext {
     if (count == 0) config = EGL_NO_CONFIG_KHR;
     // A driver may list the one way to be told of resets, or the other, and refuse it all the same.
     for (const EGLint resetNotification : resetNotifications()) {
-      context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT,
-                                  contextAttributes(resetNotification).data());
-      if (context_ != EGL_NO_CONTEXT) return true;
+      // Software's on a card (kms_swrast) refuses a debug context.
+      for (const bool isDebug : {kIsDebug, false}) {
+        context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT,
+                                    contextAttributes(resetNotification, isDebug).data());
+        if (context_ != EGL_NO_CONTEXT) return true;
+      }
     }
     return false;
   }
@@ -255,11 +258,15 @@ class OpenContext {
     return ways;
   }
 
-  static std::vector<EGLint> contextAttributes(EGLint resetNotification) {
-    std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 1};
-#if !defined(NDEBUG)
-    attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
+#if defined(NDEBUG)
+  static constexpr bool kIsDebug = false;
+#else
+  static constexpr bool kIsDebug = true;
 #endif
+
+  static std::vector<EGLint> contextAttributes(EGLint resetNotification, bool isDebug) {
+    std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 1};
+    if (isDebug) attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
     if (resetNotification != EGL_NONE) {
       attributes.insert(attributes.end(), {resetNotification, EGL_LOSE_CONTEXT_ON_RESET});
     }

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <utility>
 
+#include "pipeline/gpu/frame_planes.h"
 #include "pipeline/gpu/ycbcr.h"
 
 namespace pleinair::gpu {
@@ -29,31 +30,6 @@ Layout layoutOf(PixelFormat format) {
       return Layout::kI420;
     default:
       return Layout::kBayer;
-  }
-}
-
-struct PlaneTexture {
-  TextureFormat format = TextureFormat::kR8;
-  FrameSize size;
-};
-
-PlaneTexture planeTexture(const hal::FrameFormat& format, int plane) {
-  const FrameSize full = format.size;
-  const FrameSize half{(full.width + 1) / 2, (full.height + 1) / 2};
-  switch (format.pixelFormat) {
-    case PixelFormat::kRgb8:
-      return {TextureFormat::kRgb8, full};
-    case PixelFormat::kRgba8:
-      return {TextureFormat::kRgba8, full};
-    case PixelFormat::kYuyv:
-      return {TextureFormat::kRgba8, {half.width, full.height}};
-    case PixelFormat::kNv12:
-      if (plane == 1) return {TextureFormat::kRg8, half};
-      return {TextureFormat::kR8, full};
-    case PixelFormat::kI420:
-      return {TextureFormat::kR8, plane == 0 ? full : half};
-    default:
-      return {TextureFormat::kR8, full};
   }
 }
 
@@ -85,47 +61,62 @@ FrameUploader::FrameUploader(const ShaderLibrary& library)
                library.fragmentPass("pipeline/gpu/shaders/camera_i420.frag"),
                library.fragmentPass("pipeline/gpu/shaders/camera_yuyv.frag"),
                library.fragmentPass("pipeline/gpu/shaders/camera_bayer.frag")},
+      convertBytes_(library.fragmentPass("pipeline/gpu/shaders/camera_rgb.frag", {{"BYTES"}})),
       resampler_(library) {}
 
 const Texture& FrameUploader::upload(const hal::ImageView& image, FrameSize size,
                                      const AspectFill& fit) {
   assert(image.isComplete());
   uploadPlanes(image);
-  convert(image.format);
+  convert(image.format, planes_, false);
+  return resampler_.resample(native_, size, fit);
+}
+
+const Texture& FrameUploader::show(const hal::FrameFormat& format, std::span<const Texture> planes,
+                                   FrameSize size, const AspectFill& fit) {
+  prepareNative(format.size);
+  convert(format, planes, true);
   return resampler_.resample(native_, size, fit);
 }
 
 void FrameUploader::uploadPlanes(const hal::ImageView& image) {
   const int count = planeCount(image.format.pixelFormat);
-  const bool changed = !native_ || planesFormat_.size != image.format.size ||
+  const bool changed = planesFormat_.size != image.format.size ||
                        planesFormat_.pixelFormat != image.format.pixelFormat;
   if (changed) planesFormat_ = {};  // stays so where there is no memory for the new planes
   for (int plane = 0; plane < count; ++plane) {
     const auto i = static_cast<std::size_t>(plane);
     if (changed) {
-      const PlaneTexture wanted = planeTexture(image.format, plane);
-      const bool chroma = plane > 0;
-      planes_[i] = Texture(wanted.format, wanted.size,
-                           chroma ? TextureFilter::kLinear : TextureFilter::kNearest);
+      const PlaneTexture wanted = uploadedPlane(image.format, plane);
+      planes_[i] = Texture(wanted.format, wanted.size, wanted.filter);
     }
     planes_[i].upload(image.planes[i].bytes, image.planes[i].strideBytes);
+    uploadedBytes_ += rowBytes(image.format.pixelFormat, plane, image.format.size.width) *
+                      static_cast<std::size_t>(
+                          planeRows(image.format.pixelFormat, plane, image.format.size.height));
   }
-  if (!native_ || native_.size() != image.format.size) {
-    native_ = Texture();
-    Texture native(TextureFormat::kRgba8, image.format.size, TextureFilter::kLinear);
-    nativeTarget_ = RenderTarget({&native});
-    native_ = std::move(native);
-  }
+  prepareNative(image.format.size);
   planesFormat_ = image.format;
 }
 
-void FrameUploader::convert(const hal::FrameFormat& format) {
+void FrameUploader::prepareNative(FrameSize size) {
+  if (native_ && native_.size() == size) return;
+  native_ = Texture();
+  Texture native(TextureFormat::kRgba8, size, TextureFilter::kLinear);
+  nativeTarget_ = RenderTarget({&native});
+  native_ = std::move(native);
+}
+
+void FrameUploader::convert(const hal::FrameFormat& format, std::span<const Texture> planes,
+                            bool areImported) {
   constexpr std::array kSamplers{"plane0", "plane1", "plane2"};
-  Program& program = convert_[static_cast<std::size_t>(layoutOf(format.pixelFormat))];
+  const bool areBytes = areImported && format.pixelFormat == PixelFormat::kRgb8;
+  Program& program =
+      areBytes ? convertBytes_ : convert_[static_cast<std::size_t>(layoutOf(format.pixelFormat))];
   program.use();
   for (int plane = 0; plane < planeCount(format.pixelFormat); ++plane) {
     const auto i = static_cast<std::size_t>(plane);
-    program.texture(kSamplers[i], planes_[i]);
+    program.texture(kSamplers[i], planes[i]);
   }
   if (isYCbCr(format.pixelFormat)) {
     const YcbcrConversion ycbcr = ycbcrConversion(format.encoding);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <span>
 
 #include "hal/image.h"
 #include "pipeline/gpu/aspect_fill.h"
@@ -27,14 +29,25 @@ class FrameUploader {
   }
   /// The same with another fit.
   const Texture& upload(const hal::ImageView& image, hal::FrameSize size, const AspectFill& fit);
+  /// The same of planes that are textures already, as importedPlane() has them: nothing is copied.
+  const Texture& show(const hal::FrameFormat& format, std::span<const Texture> planes,
+                      hal::FrameSize size, const AspectFill& fit);
+
+  /// The last frame at its own size, RGBA8. Precondition: there was one.
+  const Texture& native() const { return native_; }
+  /// Bytes of planes that were copied so far.
+  std::uint64_t uploadedBytes() const { return uploadedBytes_; }
 
  private:
   void uploadPlanes(const hal::ImageView& image);
-  void convert(const hal::FrameFormat& format);
+  void prepareNative(hal::FrameSize size);
+  void convert(const hal::FrameFormat& format, std::span<const Texture> planes, bool areImported);
 
   std::array<Program, 6> convert_;  // one a layout
+  Program convertBytes_;            // RGB of single bytes
   hal::FrameFormat planesFormat_;
   std::array<Texture, 3> planes_;
+  std::uint64_t uploadedBytes_ = 0;
   Texture native_;  // at the frame's own size
   RenderTarget nativeTarget_;
   Resampler resampler_;

@@ -8,15 +8,22 @@
 
 #include "hal/clock.h"
 #include "hal/error.h"
+#include "hal/surface.h"
 
 namespace pleinair::gpu {
 
-/// The calls by which a lost GPU is noticed. Empty functions stand for the driver's own; tests
-/// replace them.
+/// The calls by which a lost GPU is noticed, and by which it shares memory. Empty functions stand
+/// for the driver's own; tests replace them.
 struct GpuTestHook {
   std::function<unsigned()> resetStatus;  ///< glGetGraphicsResetStatus()
   /// glClientWaitSync() with this timeout, ns
   std::function<unsigned(std::uint64_t timeoutNs)> waitForFence;
+  /// The name of a texture that shares a surface's memory; 0: refused
+  std::function<unsigned(const hal::GpuSurface&)> importSurface;
+  /// The same for a plane of a camera's buffer, whose index the surface's id is
+  std::function<unsigned(const hal::GpuSurface&)> importPlane;
+  /// Cameras get their buffers back while the GPU may still read them: a control.
+  bool returnsFramesEarly = false;
   /// A GPU that does not finish its work within this time is taken for lost.
   hal::Duration patience = std::chrono::seconds(2);
   const hal::Clock* clock = nullptr;  ///< of the patience; CLOCK_MONOTONIC

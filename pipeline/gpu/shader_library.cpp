@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <functional>
 #include <initializer_list>
@@ -12,6 +13,7 @@
 #include <system_error>
 #include <utility>
 
+#include <EGL/egl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -69,6 +71,19 @@ void addInputs(std::string_view text, std::vector<ShaderInput>& inputs) {
       inputs.push_back(std::move(input));
     }
   }
+}
+
+/// Gives the driver a program's name, for debuggers, captures and its messages (GL_KHR_debug):
+/// "pipeline/gpu/shaders/fullscreen.vert pipeline/…/guide.frag", with the flags.
+void labelForDriver(const ProgramHandle& program, std::string label) {
+  const auto* extensions = reinterpret_cast<const char*>(glGetString(GL_EXTENSIONS));
+  if (extensions == nullptr || std::strstr(extensions, "GL_KHR_debug") == nullptr) return;
+  const auto give =
+      reinterpret_cast<PFNGLOBJECTLABELKHRPROC>(eglGetProcAddress("glObjectLabelKHR"));
+  if (give == nullptr) return;
+  constexpr std::size_t kMostEverywhere = 255;  // characters
+  label.resize(std::min(label.size(), kMostEverywhere));
+  give(GL_PROGRAM_KHR, program.get(), static_cast<GLsizei>(label.size()), label.c_str());
 }
 
 Error shaderError(std::string_view name, std::string problem) {
@@ -219,6 +234,8 @@ Program ShaderLibrary::link(ProgramKind kind, std::span<const ShaderHandle> shad
     glGetProgramInfoLog(program.get(), static_cast<GLsizei>(log.size()), nullptr, log.data());
     throw hal::Failure(shaderError(label, fmt::format("does not link: {}", log.data())));
   }
+  const std::string vertices = sources.size() > 1 ? sources.front()->files.front() + " " : "";
+  labelForDriver(program, vertices + label);
   std::vector<ShaderInput> inputs;
   for (const Expansion* source : sources) addInputs(source->text, inputs);
   ++compiled_;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "hal/pixel_format.h"
 #include "pipeline/gpu/gl.h"
@@ -45,6 +46,10 @@ class Texture {
   /// hal::Failure (kUnsupported) where the GPU has no memory for it.
   Texture(TextureFormat format, hal::FrameSize size, TextureFilter filter = TextureFilter::kNearest,
           TextureWrap wrap = TextureWrap::kClamp);
+
+  /// One that has its memory from elsewhere, with its filter set.
+  Texture(TextureHandle handle, hal::FrameSize size, TextureFormat format = TextureFormat::kRgba8)
+      : handle_(std::move(handle)), format_(format), size_(size) {}
 
   TextureFormat format() const { return format_; }
   hal::FrameSize size() const { return size_; }

@@ -13,6 +13,7 @@
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/marks/fading_past.h"
+#include "pipeline/marks/front_movers.h"
 
 namespace pleinair::marks {
 namespace {
@@ -24,6 +25,8 @@ using gpu::TextureFormat;
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr hal::Duration kStandingHold = std::chrono::milliseconds(500);
 constexpr float kFreshSeconds = 0.3F;
+/// Since the camera began to look: so long what is remembered may be a mover that stood there.
+constexpr hal::Duration kDoubted = std::chrono::seconds(3);
 constexpr unsigned kTurns = 2;  // shaders/motion_layers_tally.glsl
 constexpr std::size_t kTallied = 3;
 constexpr GLbitfield kStored = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
@@ -51,6 +54,7 @@ struct MotionLayers::State {
         findEdges(library.compute(kShaders + "mover_edges.comp")),
         findMotion(library.compute(kShaders + "mover_motion.comp")),
         join(library.compute(kShaders + "motion_layers_join.comp")),
+        front(library, size),
         candidates(TextureFormat::kRgba8, size),
         evidence(TextureFormat::kRgba16f, size),
         ground(TextureFormat::kRgba16f, blocksOf(size)),
@@ -75,6 +79,7 @@ struct MotionLayers::State {
   gpu::Program findEdges;
   gpu::Program findMotion;
   gpu::Program join;
+  FrontMovers front;
   gpu::Texture candidates;
   gpu::Texture evidence;
   gpu::Texture ground;
@@ -95,9 +100,15 @@ struct MotionLayers::State {
   float lastStep = 0.0F;  // s; moverMotion is over it
   bool hasPast = false;
   bool isStanding = false;
+  bool hasFront = false;  // whether the last frame had models
   hal::Duration sinceStanding = kStandingHold;
+  hal::Duration sinceFirst{0};  // since the first frame
 
   glm::ivec2 cells() const { return {size.width, size.height}; }
+  void forgetFront() {
+    hasFront = false;
+    front.reset();
+  }
   /// Binds what shaders/motion_layers.glsl reads. Precondition: the program is in use.
   void bindBackground(gpu::Program& program, const scene::ArFrame& frame,
                       const MotionField& motion) const;
@@ -140,17 +151,19 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
   // A picture of another quality level differs everywhere.
   if (motion.isCut() || s.frameSize != frame.size()) s.hasPast = false;
   s.frameSize = frame.size();
+  if (!s.hasPast) s.forgetFront();
   const hal::Duration passed =
       s.hasPast ? timeStep(s.lastTime, frame.captureTime) : hal::Duration(0);
   const auto step = static_cast<float>(hal::toSeconds(passed));
   const float motionScale = s.lastStep > 0.0F ? step / s.lastStep : 1.0F;
+  s.sinceFirst = s.hasPast ? s.sinceFirst + passed : hal::Duration(0);
   const std::size_t before = s.now;
   s.now = 1 - s.now;
   s.turn = (s.turn + 1) % kTurns;
   // A cell averages four px.
   const double noise = motion.noiseLevels() / 255.0 / kCellPixels;
   s.begin(s.compare, frame, motion, step)
-      .texture("picture", *frame.colour)
+      .texture("picture", frame.camera())
       .texture("lastPicture", s.pictures.at(before))
       .texture("background", s.backgrounds.at(before))
       .texture("labels", s.labels.at(before))
@@ -176,6 +189,10 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .texture("evidence", s.evidence)
       .texture("picture", s.pictures.at(s.now))
       .texture("background", s.backgrounds.at(before))
+      .texture("front", s.hasFront ? s.front.front() : s.noMotion)
+      .set("hasFront", s.hasFront ? 1 : 0)
+      .set("isDoubted", s.sinceFirst < kDoubted ? 1 : 0)
+      .set("frontRestSeconds", static_cast<float>(hal::toSeconds(options.restBeforeModels)))
       .set("restSeconds", static_cast<float>(hal::toSeconds(options.rest)))
       .set("freshSeconds", kFreshSeconds)
       .image("labels", s.labels.at(s.now), ImageAccess::kWrite)
@@ -196,6 +213,12 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .texture("normalFlow", s.normalFlow)
       .image("moverMotion", s.moverMotion, ImageAccess::kWrite)
       .dispatch(blocks, kStored);
+  if (frame.hasObjects) {
+    s.front.update(frame, s.labels.at(s.now), s.hasPast && motion.isStanding(), step);
+    s.hasFront = true;
+  } else {
+    s.forgetFront();
+  }
   s.last = frame.sequence;
   s.lastTime = frame.captureTime;
   s.lastStep = step;
@@ -206,7 +229,11 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
 }
 
 const gpu::Texture& MotionLayers::labels() const {
-  return state_->labels.at(state_->now);
+  return state_->hasFront ? state_->front.seenLabels() : state_->labels.at(state_->now);
+}
+
+const gpu::Texture* MotionLayers::front() const {
+  return state_->hasFront ? &state_->front.front() : nullptr;
 }
 
 const gpu::Texture& MotionLayers::background() const {

@@ -15,6 +15,8 @@ namespace pleinair::marks {
 struct MotionLayersOptions {
   /// after which a mover that has stopped counts as background
   hal::Duration rest = std::chrono::seconds(4);
+  /// the same for one that is before a virtual model (FrontMovers)
+  hal::Duration restBeforeModels = std::chrono::seconds(30);
 };
 
 /// Splits the camera image into the background, which goes with the camera, and movers, which move
@@ -28,7 +30,8 @@ struct MotionLayersOptions {
 /// Piccardi, "Background subtraction techniques: a review", 2004.)
 ///
 /// A mover's plain parts, and those along an edge, go with the others. What comes in from outside
-/// before a camera that stands is a mover at once. One mover is not told from another. Under
+/// before a camera that stands is a mover at once. Virtual models are looked through: what moves
+/// behind them is known, too. One mover is not told from another. Under
 /// parallax, near things may count as movers. All calls on the thread of the GL context that was
 /// current at construction.
 class MotionLayers {
@@ -48,9 +51,13 @@ class MotionLayers {
               const MotionLayersOptions& options = {});
 
   /// RGBA16F, LINEAR; a texel is kCellPixels² px of the full image. R: 1 on movers, 0 on the
-  /// background and on models. G: 1 where this has just changed, falling to 0 within 0.3 s. B: how
-  /// long a mover has rested, A: how long it has been seen to move, s; below 0 where it has left.
+  /// background and on virtual models that are before them. G: 1 where this has just changed,
+  /// falling to 0 within 0.3 s. B: how long a mover has rested, A: how long it has been seen to
+  /// move, s; below 0 where it has left.
   const gpu::Texture& labels() const;
+  /// FrontMovers::front(): where virtual models are to be hidden, since a mover is before them.
+  /// Null if the last frame had no models.
+  const gpu::Texture* front() const;
   /// RGBA16F, LINEAR, as large: the background's mean colour, sRGB-coded, also behind movers; and
   /// the number of frames in it, 0 where it was never seen.
   const gpu::Texture& background() const;

@@ -156,6 +156,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("modelDetail", rule.modelDetail)
       .set("detailSpread", rule.detailSpread)
       .set("slack", rule.slack)
+      .set("arms", 2)
       .set("bothWays", rule.bothWays ? 1 : 0)
       .set("wander", rule.wanderRad)
       .set("past", glm::vec4(stays(rule.shapeMemory), stays(rule.colourMemory),

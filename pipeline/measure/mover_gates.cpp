@@ -18,6 +18,7 @@ constexpr double kMaxStillPercent = 0.2;
 constexpr double kMaxReturnLevels = 4.0;
 constexpr double kMaxGhost = 0.25;
 constexpr double kMaxLostPercent = 15.0;
+constexpr double kMaxRemainsPercent = 2.0;
 constexpr double kMaxMoverNHw2 = 0.25;
 constexpr double kMaxMoverPopPercent = 2.0;
 constexpr double kMaxSeamPopPercent = 3.0;
@@ -36,6 +37,7 @@ constexpr Limit kStillLimit{"STILL", " %", kMaxStillPercent, kNothingStill};
 constexpr Limit kReturnLimit{"RETURN", "", kMaxReturnLevels, kNothingUncovered};
 constexpr Limit kGhostLimit{"GHOST", "", kMaxGhost, kNothingUncovered};
 constexpr Limit kLostLimit{"LOST", " %", kMaxLostPercent, kNoClearMover};
+constexpr Limit kRemainsLimit{"REMAINS", " %", kMaxRemainsPercent, kNoMover};
 constexpr Limit kMoverNHw2Limit{"MOVER nHW2", "", kMaxMoverNHw2, kNothingFollowed};
 constexpr Limit kMoverPopLimit{"MOVER POP", " %", kMaxMoverPopPercent, kNothingFollowed};
 constexpr Limit kSeamPopLimit{"SEAM POP", " %", kMaxSeamPopPercent, kNothingFollowed};
@@ -111,6 +113,10 @@ std::vector<Verdict> moverVerdicts(const MoverReport& movers, bool isOnPaper) {
   std::vector<Verdict> verdicts{verdictOf(kStillLimit, painting.stillPercent),
                                 verdictOf(kReturnLimit, painting.returnLevels),
                                 verdictOf(kGhostLimit, painting.ghost)};
+  // Most sequences begin without a mover.
+  if (painting.remainsPercent) {
+    verdicts.push_back(verdictOf(kRemainsLimit, painting.remainsPercent));
+  }
   for (Verdict& verdict :
        verdictsAlong(movers.alongMotion[Subject::kPainting], movers.alongMotion[Subject::kInput])) {
     verdicts.push_back(std::move(verdict));

@@ -48,6 +48,7 @@ class PaintingRegions {
     still_.add(frame);
     lost_.add(frame, ground_);
     uncovered_.add(frame, ground_);
+    firstPlace_.add(frame);
   }
 
   MoverSummary summary() const {
@@ -55,7 +56,8 @@ class PaintingRegions {
             .stillPercent = still_.percent(),
             .returnLevels = uncovered_.returnLevels(),
             .ghost = uncovered_.ghost(),
-            .lostPercent = lost_.percent()};
+            .lostPercent = lost_.percent(),
+            .remainsPercent = firstPlace_.percent()};
   }
 
  private:
@@ -64,6 +66,7 @@ class PaintingRegions {
   Ground ground_;
   LostRegion lost_;
   UncoveredRegion uncovered_;
+  FirstPlaceRegion firstPlace_;
 };
 
 cv::Mat3f inUnits(const cv::Mat3b& picture) {

@@ -27,6 +27,9 @@ struct MoverSummary {
   /// LOST: of the mover's pixels, those whose painting is nearer to the painted ground than to the
   /// camera's picture.
   std::optional<double> lostPercent;
+  /// REMAINS: where a mover stood in the first frame, from 1 s after it has left, the pixels whose
+  /// painting is nearer to that of the first frame than to the camera's picture.
+  std::optional<double> remainsPercent;
 };
 
 /// The same of the painting and of controls.

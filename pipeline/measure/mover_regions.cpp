@@ -139,4 +139,31 @@ std::optional<double> LostRegion::percent() const {
   return percentOf(lost_);
 }
 
+void FirstPlaceRegion::add(const MoverFrame& frame) {
+  const cv::Size size = frame.input.size();
+  if (mover_.empty()) {
+    input_ = frame.input.clone();
+    painted_ = smoothed(frame.output);
+    mover_ = frame.zones.within.clone();
+    coveredAt_.assign(static_cast<std::size_t>(size.area()), frame.time);
+  }
+  if (cv::countNonZero(mover_) == 0) return;
+  const cv::Mat3b output = smoothed(frame.output);
+  const cv::Mat3b input = smoothed(frame.input);
+  forEachInner(size, [&](cv::Point at) {
+    if (mover_(at) == 0) return;
+    hal::TimePoint& coveredAt = coveredAt_[static_cast<std::size_t>(at.y * size.width + at.x)];
+    if (frame.zones.close(at) != 0) coveredAt = frame.time;
+    if (frame.time - coveredAt < kReturn) return;
+    if (largestDifference(frame.input(at), input_(at)) <= kContrastLevels) return;
+    const bool remains =
+        squaredDistance(output(at), painted_(at)) < squaredDistance(output(at), input(at));
+    remains_ += {remains ? 1.0 : 0.0, 1.0};
+  });
+}
+
+std::optional<double> FirstPlaceRegion::percent() const {
+  return percentOf(remains_);
+}
+
 }  // namespace pleinair::measure

@@ -99,4 +99,18 @@ class LostRegion {
   Mean lost_;
 };
 
+/// Places that movers covered in the first frame, from 1 s after they have left. REMAINS, percent:
+/// those whose painting is nearer to that of the first frame than to the camera's picture.
+class FirstPlaceRegion {
+ public:
+  void add(const MoverFrame& frame);
+  std::optional<double> percent() const;
+
+ private:
+  cv::Mat3b input_, painted_;  // of the first frame, the latter smoothed
+  cv::Mat1b mover_;
+  std::vector<hal::TimePoint> coveredAt_;  // the last time, of each pixel
+  Mean remains_;
+};
+
 }  // namespace pleinair::measure

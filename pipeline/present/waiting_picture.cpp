@@ -180,16 +180,18 @@ class Landscape {
   std::array<std::vector<float>, 3> tops_;
 };
 
-/// The washes on the sheet: RGB, and as alpha how much of the paper they cover.
-cv::Mat washesOf(hal::FrameSize size, const hal::ImageView& painting) {
+/// Washes are computed at this size.
+cv::Size washSize(hal::FrameSize size) {
   const int scale = std::max(1, (size.height + kWashRows / 2) / kWashRows);
-  const cv::Size small(std::max(1, size.width / scale), std::max(1, size.height / scale));
-  const bool hasPainting = !painting.planes[0].bytes.empty();
+  return {std::max(1, size.width / scale), std::max(1, size.height / scale)};
+}
+
+/// How much of the paper the washes cover, 0 to 255.
+hal::Image coverageOf(hal::FrameSize size) {
+  const cv::Size small = washSize(size);
   cv::Mat coverage(small, CV_8UC1);
-  cv::Mat landscape(small, CV_8UC3);
   const auto height = static_cast<float>(small.height);
   const float right = static_cast<float>(small.width) / height;
-  const Landscape nature(hasPainting ? 0 : small.width, height);
   constexpr auto kBottom = static_cast<float>(1.0 - kTextMargin);
   for (int row = 0; row < small.height; ++row) {
     for (int column = 0; column < small.width; ++column) {
@@ -201,11 +203,36 @@ cv::Mat washesOf(hal::FrameSize size, const hal::ImageView& painting) {
                          0.02F * fractal(22.0F * x, 26.0F * y, 11, 3);
       coverage.at<std::uint8_t>(row, column) =
           cv::saturate_cast<std::uint8_t>(255.0F * smoothStep(0.035F, 0.065F, edge));
-      if (!hasPainting) landscape.at<cv::Vec3b>(row, column) = cv::Vec3b(nature.at(column, x, y));
     }
   }
+  hal::Image whole({.pixelFormat = hal::PixelFormat::kGrey8, .size = size, .encoding = {}});
+  cv::Mat full(size.height, size.width, CV_8UC1, whole.plane(0).data());
+  cv::resize(coverage, full, full.size(), 0, 0, cv::INTER_LINEAR);
+  return whole;
+}
+
+cv::Mat landscapeOf(hal::FrameSize size) {
+  const cv::Size small = washSize(size);
+  cv::Mat landscape(small, CV_8UC3);
+  const auto height = static_cast<float>(small.height);
+  const Landscape nature(small.width, height);
+  for (int row = 0; row < small.height; ++row) {
+    for (int column = 0; column < small.width; ++column) {
+      const float x = (static_cast<float>(column) + 0.5F) / height;
+      const float y = (static_cast<float>(row) + 0.5F) / height;
+      landscape.at<cv::Vec3b>(row, column) = cv::Vec3b(nature.at(column, x, y));
+    }
+  }
+  return landscape;
+}
+
+/// The washes on the sheet: RGB, and as alpha how much of the paper they cover.
+cv::Mat washesOf(hal::Image& covered, const hal::ImageView& painting) {
+  const hal::FrameSize size = covered.size();
+  const cv::Mat coverage(size.height, size.width, CV_8UC1, covered.plane(0).data());
   const cv::Size full(size.width, size.height);
   cv::Mat colours;
+  const bool hasPainting = !painting.planes[0].bytes.empty();
   if (hasPainting) {
     const cv::Mat from = matOf(painting);
     const double zoom = std::max(static_cast<double>(full.width) / from.cols,
@@ -218,9 +245,8 @@ cv::Mat washesOf(hal::FrameSize size, const hal::ImageView& painting) {
     cv::resize(from(cut), colours, full, 0, 0, zoom < 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
     if (colours.channels() == 4) cv::cvtColor(colours, colours, cv::COLOR_RGBA2RGB);
   } else {
-    cv::resize(landscape, colours, full, 0, 0, cv::INTER_LINEAR);
+    cv::resize(landscapeOf(size), colours, full, 0, 0, cv::INTER_LINEAR);
   }
-  cv::resize(coverage, coverage, full, 0, 0, cv::INTER_LINEAR);
   const std::array<cv::Mat, 2> parts{colours, coverage};
   cv::Mat washes(full, CV_8UC4);
   const std::array<int, 8> channels{0, 0, 1, 1, 2, 2, 3, 3};
@@ -284,9 +310,22 @@ int write(hal::Image& sheet, const std::string& text, const std::string& font, d
 
 hal::Image waitingPicture(hal::FrameSize size, const hal::ImageView& painting,
                           const WaitingText& text) {
+  return WaitingPictures().draw(size, painting, 0, text);
+}
+
+hal::Image WaitingPictures::draw(hal::FrameSize size, const hal::ImageView& painting,
+                                 std::uint64_t paintingNumber, const WaitingText& text) {
   assert(hal::isAcceptedSize(size));
-  hal::Image sheet({.pixelFormat = hal::PixelFormat::kRgba8, .size = size, .encoding = {}});
-  paintSheet(sheet, washesOf(size, painting));
+  if (coverage_.size() != size) {
+    coverage_ = coverageOf(size);
+    sheet_ = hal::Image();
+  }
+  if (sheet_.size() != size || paintingNumber_ != paintingNumber) {
+    sheet_ = hal::Image({.pixelFormat = hal::PixelFormat::kRgba8, .size = size, .encoding = {}});
+    paintSheet(sheet_, washesOf(coverage_, painting));
+    paintingNumber_ = paintingNumber;
+  }
+  hal::Image sheet = sheet_;
   const int top = static_cast<int>(std::lround((1.0 - 0.85 * kTextMargin) * size.height));
   const int next = write(sheet, text.title, "Serif Italic", kTitleHeight, top, 0.92F);
   write(sheet, text.detail, "Serif", kDetailHeight, next, 0.72F);

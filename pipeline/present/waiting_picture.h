@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "hal/image.h"
@@ -20,6 +21,21 @@ struct WaitingText {
 /// is used. Any thread.
 hal::Image waitingPicture(hal::FrameSize size, const hal::ImageView& painting,
                           const WaitingText& text);
+
+/// Draws waiting pictures one after another, the same as waitingPicture() does, and keeps what the
+/// next one may have in common: another text on a known sheet takes a fraction of the time. One
+/// thread.
+class WaitingPictures {
+ public:
+  /// `paintingNumber`: the same number stands for the same painting.
+  hal::Image draw(hal::FrameSize size, const hal::ImageView& painting, std::uint64_t paintingNumber,
+                  const WaitingText& text);
+
+ private:
+  hal::Image coverage_;  ///< grey: how much of the paper is painted on
+  hal::Image sheet_;     ///< without a text
+  std::uint64_t paintingNumber_ = 0;
+};
 
 /// An RGBA8 picture, turned clockwise by right angles.
 hal::Image turned(const hal::Image& picture, int quarterTurns);

@@ -85,6 +85,7 @@ CaptureStage::Status CaptureStage::status() const {
   status.stalls = counts.stalls;
   status.losses = counts.losses;
   status.opens = counts.opens;
+  status.link = counts.frames.link;
   status.delay = delay_.recent(now).percentile(0.5);
   if (movedAt_) status.quiet = now - *movedAt_;
   return status;

@@ -46,6 +46,7 @@ class CaptureStage {
     std::optional<hal::StreamFormat> format;  ///< the last one announced
     double perSecond = 0.0;
     std::uint64_t stalls = 0, losses = 0, opens = 0;
+    hal::LinkCounts link;                ///< packets of all its openings
     std::optional<hal::Duration> quiet;  ///< since movedAt()
     hal::Duration delay{0};              ///< recent median time from capture to arrival
     bool hasEnded = false;               ///< no more frames will come

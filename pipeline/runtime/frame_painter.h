@@ -11,6 +11,7 @@
 #include "hal/error.h"
 #include "hal/output.h"
 #include "pipeline/engine/painter.h"
+#include "pipeline/runtime/surface_lending.h"
 
 namespace pleinair::runtime {
 
@@ -38,6 +39,29 @@ class FramePainter {
   virtual void open(std::size_t output, const hal::OutputFormat& format) = 0;
   /// Closes an output; its frames in flight are dropped.
   virtual void close(std::size_t output) = 0;
+
+  // Painters that draw straight into the memory that a display scans out.
+
+  /// The layouts that it draws into; none by default.
+  virtual DrawableLayouts drawable() {
+    return {.modifiers = {}, .problem = "draws into memory only"};
+  }
+  /// Takes the surfaces that an output lends, in place of those of an earlier loan, and draws the
+  /// pattern (hal::surfacePatternAt()) into each. Waits for the GPU. Errors: kTimeout (not yet: to
+  /// be called again), kUnsupported, kDeviceLost.
+  virtual hal::Result<void> importLoan(std::size_t /*output*/, const SurfaceLoan& /*loan*/) {
+    return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kUnsupported,
+                                     .subject = "painter",
+                                     .problem = drawable().problem,
+                                     .remedy = {}});
+  }
+  /// Draws the next frame into this surface of its last loan, for that output, instead of reading
+  /// it back.
+  virtual void drawNextInto(std::size_t /*output*/, const hal::LentSurface& /*surface*/) {}
+
+  /// How camera frames reach the GPU and the trackers; null: it is not known. Valid until the next
+  /// paint().
+  virtual const CameraPath* cameraPath() const { return nullptr; }
 
   /// Times of the painter's passes in the timed frames; valid until the next paint().
   virtual std::span<const gpu::PassTime> passTimes() const { return {}; }

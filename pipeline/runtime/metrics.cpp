@@ -26,6 +26,14 @@ Readings byOutcome(const std::array<std::uint64_t, kOutcomes>& ended) {
   return readings;
 }
 
+Readings byKind(const hal::LinkCounts& link) {
+  Readings readings;
+  readings.emplace_back("missing", link.missingPackets);
+  readings.emplace_back("resent", link.resentPackets);
+  readings.emplace_back("ignored", link.ignoredPackets);
+  return readings;
+}
+
 Readings cameraText(const MetricMoment& moment, std::string hal::CameraIdentity::*member) {
   const std::optional<hal::CameraIdentity>& camera = moment.status.camera.camera;
   return camera ? one((*camera).*member) : one({});
@@ -47,6 +55,31 @@ StateReading outputState(const OutputStage::Status& output) {
   return {.names = {"taking", "reopening", "failed", "suspended", "blanked"}, .current = current};
 }
 
+/// Unset where there is no display.
+Readings pacing(const std::optional<hal::Refresh>& refresh) {
+  if (!refresh) return one({});
+  return one(StateReading{.names = {"display", "clock"}, .current = refresh->sequence ? 0U : 1U});
+}
+
+/// Unset for outputs that lend no surfaces, and until it is found out.
+Readings scanOutPath(const ScanOut& scanOut) {
+  if (scanOut.path == ScanOut::Path::kUnknown) return one({});
+  return one(StateReading{.names = {"copied", "direct"},
+                          .current = scanOut.path == ScanOut::Path::kDirect ? 1U : 0U});
+}
+
+Readings scanOutReason(const ScanOut& scanOut) {
+  return scanOut.path == ScanOut::Path::kUnknown ? one({}) : one(scanOut.reason);
+}
+
+Readings scanOutTime(const ScanOut& scanOut) {
+  return scanOut.path == ScanOut::Path::kUnknown ? one({}) : one(scanOut.took);
+}
+
+Readings scanOutDirect(const ScanOut& scanOut) {
+  return scanOut.path == ScanOut::Path::kUnknown ? one({}) : one(scanOut.direct);
+}
+
 Readings paintStages(const PaintStage::Status& painting) {
   Readings readings;
   for (const PaintStage::Stage& stage : painting.stages) {
@@ -66,6 +99,42 @@ Readings paintPasses(const PaintStage::Status& painting, Read read) {
   return readings;
 }
 
+Readings ofProcedure(const MetricMoment& moment, std::string ProcedureStatus::*member) {
+  const std::optional<ProcedureStatus>& procedure = moment.status.procedure;
+  return procedure ? one((*procedure).*member) : one({});
+}
+
+StateReading frameMemory(hal::FrameMemory current) {
+  StateReading state{.names = {}, .current = static_cast<std::size_t>(current)};
+  for (int i = 0; i <= static_cast<int>(hal::FrameMemory::kLent); ++i) {
+    state.names.emplace_back(hal::toString(static_cast<hal::FrameMemory>(i)));
+  }
+  return state;
+}
+
+StateReading framePath(const CameraPath& path) {
+  StateReading state{.names = {}, .current = static_cast<std::size_t>(path.frames.path)};
+  for (int i = 0; i <= static_cast<int>(gpu::FramePath::kImported); ++i) {
+    state.names.emplace_back(gpu::toString(static_cast<gpu::FramePath>(i)));
+  }
+  return state;
+}
+
+StateReading lumaSource(const CameraPath& path) {
+  StateReading state{.names = {}, .current = static_cast<std::size_t>(path.luma)};
+  for (int i = 0; i <= static_cast<int>(LumaSource::kCopy); ++i) {
+    state.names.emplace_back(toString(static_cast<LumaSource>(i)));
+  }
+  return state;
+}
+
+/// Unset until a frame was painted.
+template <class Read>
+Readings ofPath(const MetricMoment& moment, Read read) {
+  const std::optional<CameraPath>& path = moment.status.painting.cameraPath;
+  return path ? one(read(*path)) : one({});
+}
+
 // Short names for the declarations below.
 using Moment = const MetricMoment&;
 using enum MetricScope;
@@ -81,6 +150,18 @@ std::vector<Metric> programMetrics() {
       {kProgram, "healthy", "", kGauge, kNoUnit,
        "Whether the camera streams and every output takes images, as in /healthz.",
        [](Moment m) { return one(m.status.isHealthy()); }},
+      {kProgram, "procedure", "", kText, kNoUnit, "Name of the procedure that is carried out.",
+       [](Moment m) { return ofProcedure(m, &ProcedureStatus::name); }},
+      {kProgram, "procedure_step", "", kText, kNoUnit, "Id of its current step, or end.",
+       [](Moment m) { return ofProcedure(m, &ProcedureStatus::step); }},
+      {kProgram, "procedure_step_number", "", kGauge, kNoUnit,
+       "Number of its current step, from 1; 0 at the end.",
+       [](Moment m) {
+         const auto& procedure = m.status.procedure;
+         return procedure ? one(std::uint64_t{procedure->number}) : one({});
+       }},
+      {kProgram, "procedure_record", "", kText, kNoUnit, "File of its record, or empty.",
+       [](Moment m) { return ofProcedure(m, &ProcedureStatus::record); }},
   };
 }
 
@@ -101,6 +182,11 @@ std::vector<Metric> cameraMetrics() {
        [](Moment m) { return one(m.status.camera.losses); }},
       {kCamera, "stalls", "", kCounter, kNoUnit, "Times that the camera fell silent.",
        [](Moment m) { return one(m.status.camera.stalls); }},
+      {kCamera, "packets", "kind", kCounter, kNoUnit,
+       "Packets of a GigE camera that went wrong: missing for good, resent after a loss, or "
+       "ignored "
+       "because they belonged to no awaited frame.",
+       [](Moment m) { return byKind(m.status.camera.link); }},
       {kCamera, "last_loss", "", kText, kNoUnit, "Why the camera was lost the last time.",
        [](Moment m) {
          const std::string& why = m.status.camera.lastLoss;
@@ -121,6 +207,20 @@ std::vector<Metric> cameraMetrics() {
        [](Moment m) {
          const std::optional<hal::StreamFormat>& format = m.status.camera.format;
          return format ? one(format->frame) : one({});
+       }},
+      {kCamera, "memory", "", kState, kNoUnit,
+       "Who has allocated its frames: the program, the device (with dma-bufs), or an allocator "
+       "that "
+       "is lent to it.",
+       [](Moment m) {
+         const std::optional<hal::StreamFormat>& format = m.status.camera.format;
+         return format ? one(frameMemory(format->memory)) : one({});
+       }},
+      {kCamera, "memory_note", "", kText, kNoUnit,
+       "Name of the allocator, or why its memory is not used.",
+       [](Moment m) {
+         const std::optional<hal::StreamFormat>& format = m.status.camera.format;
+         return format && !format->memoryNote.empty() ? one(format->memoryNote) : one({});
        }},
   };
 }
@@ -157,6 +257,33 @@ std::vector<Metric> paintingMetrics() {
        [](Moment m) { return one(m.status.painting.contextLosses); }, "context_losses_total"},
       {kPainting, "last_failure", "", kText, kNoUnit, "The last refusal or loss of the GPU.",
        [](Moment m) { return textOf(m.status.painting.failure); }},
+      {kPainting, "frame_path", "", kState, kNoUnit,
+       "How camera frames reach the GPU: copied there, copied while a trial runs, or read in the "
+       "camera's memory.",
+       [](Moment m) { return ofPath(m, framePath); }},
+      {kPainting, "frame_path_reason", "", kText, kNoUnit,
+       "Why they are copied, or how they are imported.",
+       [](Moment m) { return ofPath(m, [](const CameraPath& p) { return p.frames.reason; }); }},
+      {kPainting, "frame_path_trial", "", kGauge, kMs,
+       "Time from the first frame until it was decided.",
+       [](Moment m) { return ofPath(m, [](const CameraPath& p) { return p.frames.trial; }); }},
+      {kPainting, "frames_imported", "", kCounter, kNoUnit,
+       "Camera frames that the GPU read where they were.",
+       [](Moment m) { return ofPath(m, [](const CameraPath& p) { return p.frames.imported; }); }},
+      {kPainting, "frames_uploaded", "", kCounter, kNoUnit,
+       "Camera frames that were copied to the GPU.",
+       [](Moment m) { return ofPath(m, [](const CameraPath& p) { return p.frames.uploaded; }); }},
+      {kPainting, "bytes_uploaded", "", kCounter, kNoUnit,
+       "Bytes of camera frames that were copied to the GPU.",
+       [](Moment m) {
+         return ofPath(m, [](const CameraPath& p) { return p.frames.uploadedBytes; });
+       }},
+      {kPainting, "leases_held", "", kGauge, kNoUnit,
+       "Buffers of the camera that the GPU may still be reading.",
+       [](Moment m) { return ofPath(m, [](const CameraPath& p) { return p.frames.heldLeases; }); }},
+      {kPainting, "luma", "", kState, kNoUnit,
+       "Where trackers read the frame's brightness: nowhere, in the frame's memory, or in a copy.",
+       [](Moment m) { return ofPath(m, lumaSource); }},
       {kPainting, "stages", "stage", kSummary, kMs,
        "Time that each stage takes of a frame's latency.",
        [](Moment m) { return paintStages(m.status.painting); }, "stage_seconds"},
@@ -195,6 +322,9 @@ std::vector<Metric> outputMetrics() {
          const std::optional<hal::Refresh>& refresh = m.output->refresh;
          return refresh && refresh->phase ? one(refresh->phase->time_since_epoch()) : one({});
        }},
+      {kOutput, "pacing", "", kState, kNoUnit,
+       "What times its images: refreshes that its display counts, or our clock at that rate.",
+       [](Moment m) { return pacing(m.output->refresh); }},
       {kOutput, "state", "", kState, kNoUnit, "Whether the output takes images.",
        [](Moment m) { return one(outputState(*m.output)); }, "output_up"},
       {kOutput, "suspension", "", kText, kNoUnit,
@@ -203,6 +333,16 @@ std::vector<Metric> outputMetrics() {
          const std::optional<hal::Suspension>& suspension = m.output->suspension;
          return suspension ? one(suspension->reason) : one({});
        }},
+      {kOutput, "scan_out", "", kState, kNoUnit,
+       "How images reach a display's memory: read back and copied, or drawn there by the GPU.",
+       [](Moment m) { return scanOutPath(m.output->scanOut); }},
+      {kOutput, "scan_out_reason", "", kText, kNoUnit,
+       "Why they are copied, or in which layout they are drawn.",
+       [](Moment m) { return scanOutReason(m.output->scanOut); }},
+      {kOutput, "scan_out_trial", "", kGauge, kMs, "Time that the trial took that decided on it.",
+       [](Moment m) { return scanOutTime(m.output->scanOut); }},
+      {kOutput, "direct", "", kCounter, kNoUnit, "Images that the GPU drew there.",
+       [](Moment m) { return scanOutDirect(m.output->scanOut); }},
       {kOutput, "frames_per_second", "", kGauge, kNoUnit,
        "Images that the output took in the last second.",
        [](Moment m) { return one(m.output->perSecond); }, "output_per_second"},

@@ -30,11 +30,11 @@ float medianOf(std::span<float> values) {
 
 }  // namespace
 
-bool MovementDetector::look(const hal::ImageView& image, hal::TimePoint captured) {
+bool MovementDetector::look(const hal::FrameImage& image, hal::TimePoint captured) {
   const bool isFirst = format_ != image.format;
   if (!isFirst && captured - lookedAt_ < kInterval) return false;
   lookedAt_ = captured;
-  const Grid grid = gridOf(image);
+  const Grid grid = gridOf(image.map().view());
   const bool moved = !isFirst && hasMoved(grid);
   for (std::size_t i = 0; i < kCells; ++i) {
     usual_[i] = isFirst ? grid[i] : usual_[i] + kLearning * (grid[i] - usual_[i]);

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "hal/clock.h"
-#include "hal/image.h"
+#include "hal/frame_image.h"
 
 namespace pleinair::runtime {
 
@@ -17,9 +17,9 @@ class MovementDetector {
  public:
   static constexpr hal::Duration kInterval = std::chrono::milliseconds(250);
 
-  /// Looks at a frame, if it is time for it. Returns whether something moved. The first frame of a
-  /// format moves nothing.
-  bool look(const hal::ImageView& image, hal::TimePoint captured);
+  /// Looks at a frame, if it is time for it; else its pixels are not mapped. Returns whether
+  /// something moved. The first frame of a format moves nothing.
+  bool look(const hal::FrameImage& image, hal::TimePoint captured);
 
  private:
   static constexpr int kColumns = 32;

@@ -36,6 +36,7 @@ OutputStage::OutputStage(std::unique_ptr<hal::Output> output, hal::OutputFormat 
       options_(std::move(options)),
       clock_(clock),
       ledger_(ledger),
+      lending_(clock),
       format_(format),
       queue_(rulesOf(output_.get(), format_, options_.rules), options_.waiting),
       refresh_(format_.refresh),
@@ -95,7 +96,9 @@ void OutputStage::submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoi
                            .ready = ready,
                            .due = dueTime(captured, latency, refresh_)};
   // A frame of the format before, that was in flight while the output was opened again.
-  const bool isOutdated = buffers_.at(buffer)->image.format() != format_.frame;
+  const OutputFrame& filled = *buffers_.at(buffer);
+  const bool isOutdated = filled.surface ? !lending_.isCurrent(*filled.surface)
+                                         : filled.image.format() != format_.frame;
   if (status_.isFinal || isOutdated) {
     end(frame, Outcome::kOutputFailed);
     return;
@@ -114,8 +117,16 @@ void OutputStage::submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoi
 }
 
 void OutputStage::end(const WaitingFrame& frame, Outcome outcome) {
-  free_.push_back(frame.buffer);
+  freeBuffer(frame.buffer);
   count(frame, outcome);
+}
+
+/// A surface with the frame goes back to the painter.
+void OutputStage::freeBuffer(std::size_t buffer) {
+  if (auto surface = std::exchange(buffers_.at(buffer)->surface, std::nullopt)) {
+    lending_.giveBack(*surface);
+  }
+  free_.push_back(buffer);
 }
 
 /// As end(), for a frame whose buffer is free already. `known`: when it was shown, and which
@@ -136,12 +147,13 @@ void OutputStage::count(const WaitingFrame& frame, Outcome outcome, FrameRecord 
 /// As end(), for a frame that was handed over; its buffer may be kept. Precondition: the mutex is
 /// held.
 void OutputStage::retire(const WaitingFrame& frame) {
-  if (!options_.keepsLastFrame || isFaded_) {
-    free_.push_back(frame.buffer);
+  if (!options_.keepsLastFrame || isFaded_ || isDirect_) {
+    freeBuffer(frame.buffer);
     return;
   }
-  if (last_) free_.push_back(*last_);
+  if (last_) freeBuffer(*last_);
   last_ = frame.buffer;
+  lastCopy_.reset();
 }
 
 void OutputStage::endAll(Outcome outcome) {
@@ -174,9 +186,12 @@ std::optional<hal::TimePoint> OutputStage::step() {
   tryToReopen();
   applyRequest();
   takeEvents();
+  copyLastFrame();
+  followLending();
   handOver();
   presentWaiting();
   const std::scoped_lock lock(mutex_);
+  ++status_.steps;
   std::optional<hal::TimePoint> next = queue_.nextTime();
   if (!queued_.empty() || waitingSurface_) {
     const auto event = output_->surfaces()->nextEvent();
@@ -196,9 +211,13 @@ void OutputStage::fail(hal::Error error) {
   reopenAfter_ = std::min(2 * reopenAfter_, kMaxReopenDelay);
   endAll(Outcome::kOutputFailed);
   waiting_.reset();
+  waitingSeen_.reset();
   waitingSurface_.reset();
   status_.isWaitingShown = false;
   fade_.end();
+  isFading_ = false;
+  directOnScreen_.reset();
+  lending_.restart();
 }
 
 void OutputStage::tryToReopen() {
@@ -257,8 +276,9 @@ void OutputStage::applyRequest() {
     }
   }
   hal::SurfaceOutput* surfaces = output_->surfaces();
-  assert(surfaces != nullptr);
-  hal::Result<hal::OutputFormat> format = surfaces->reconfigure(request);
+  hal::Result<hal::OutputFormat> format = surfaces != nullptr
+                                              ? surfaces->reconfigure(request)
+                                              : output_->memory()->reconfigure(request);
   const std::scoped_lock lock(mutex_);
   request_.reset();
   options_.request = request;
@@ -268,6 +288,7 @@ void OutputStage::applyRequest() {
   }
   endAll(Outcome::kStopped);
   waiting_.reset();
+  lending_.restart();
   started(*format);
 }
 
@@ -289,6 +310,7 @@ void OutputStage::wake() {
 hal::Result<void> OutputStage::finish() {
   takeEvents();
   handOver();
+  keepLastFrame();
   {
     const std::scoped_lock lock(mutex_);
     endAll(Outcome::kStopped);
@@ -321,6 +343,11 @@ bool OutputStage::isFull() const {
   return options_.limit && status_.presented >= *options_.limit;
 }
 
+bool OutputStage::isBlanked() const {
+  const std::scoped_lock lock(mutex_);
+  return status_.suspension && status_.suspension->cause == hal::Suspension::Cause::kBlank;
+}
+
 bool OutputStage::isIdle() const {
   const std::scoped_lock lock(mutex_);
   return queue_.size() == 0 && queued_.empty() && !waitingSurface_ && !isWriting_;
@@ -341,6 +368,7 @@ OutputStage::Status OutputStage::status() const {
   status.latency = latency_.recent(now);
   status.latencySum = latency_.sum();
   status.writing = writing_.recent(now);
+  status.scanOut = lending_.status();
   return status;
 }
 

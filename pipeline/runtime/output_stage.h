@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -12,12 +13,14 @@
 #include "hal/clock.h"
 #include "hal/output.h"
 #include "pipeline/engine/painter.h"
+#include "pipeline/runtime/caption.h"
 #include "pipeline/runtime/duration_histogram.h"
 #include "pipeline/runtime/fade_in.h"
 #include "pipeline/runtime/frame_ledger.h"
 #include "pipeline/runtime/frame_log.h"
 #include "pipeline/runtime/frame_rate.h"
 #include "pipeline/runtime/presentation_queue.h"
+#include "pipeline/runtime/surface_lending.h"
 
 namespace pleinair::runtime {
 
@@ -50,6 +53,10 @@ struct OutputStageOptions {
   hal::OutputRequest request;  ///< for start() after reopen()
   /// Why there is no output yet, which is waited for.
   std::optional<hal::Error> absence = std::nullopt;
+  /// Lets the painter draw straight into surfaces of the output that a GPU can draw into.
+  bool drawsDirectly = true;
+  /// How long frames usually wait until they are shown: as many of these surfaces are needed.
+  hal::Duration latency = std::chrono::milliseconds(120);
   /// Keeps the last frame that was shown, for lastFrame(); takes the memory of one.
   bool keepsLastFrame = false;
   /// Gets a record of each frame, under this number; outlives the stage. Null: none.
@@ -65,7 +72,10 @@ struct OutputStageOptions {
 /// A memory output has shown a frame once write() returns. A surface-lending output has shown it
 /// once a presentation event says so; until then the frame counts as waiting.
 ///
-/// A surface-lending output can show a waiting picture in place of frames, which fade in over it.
+/// An output can show a waiting picture in place of frames, which fade in over it.
+/// Where it has surfaces that a GPU draws into, the painter draws frames straight into them
+/// (SurfaceLending); frames that fade or lie under a caption, and those for which none is free, are
+/// copied.
 class OutputStage {
  public:
   /// `output` was started and answered `format`; or it is null, for OutputStageOptions::absence,
@@ -89,21 +99,32 @@ class OutputStage {
   void submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoint ready,
               hal::Duration latency);
 
+  /// The surfaces that the painter may draw into.
+  SurfaceLending& lending() { return lending_; }
+  /// One for the next frame; nothing where it is to be read back.
+  std::optional<hal::LentSurface> takeSurface();
+
   // Any thread.
 
   /// Has `picture` (RGBA8, of format()'s size) shown as soon as no frame waits; where the output
-  /// lends no surfaces or they have another size, it is dropped. Frames that come later fade in
-  /// over it where `fades`, else replace it. It is neither a frame nor counted as one.
+  /// has another format, it is dropped. Only for outputs of kinds that show waiting pictures.
+  /// Frames that come later fade in over it where `fades`, else replace it. It is neither a frame
+  /// nor counted as one.
   void showWaiting(std::shared_ptr<const hal::Image> picture, bool fades = true);
   /// Drops a waiting picture that is not shown yet.
   void cancelWaiting();
+  /// Draws a caption over each frame, and over the waiting picture that is seen, until it is
+  /// called with another or null. It is no part of the frame: lastFrame() does not have it. For
+  /// outputs that lend surfaces; frames are copied meanwhile.
+  void setCaption(std::shared_ptr<const Caption> caption, double opacity);
   /// Has the output take another stream, at the next step(); one that fails or is absent, once it
   /// is opened.
   void reconfigure(const hal::OutputRequest& request);
   /// Whether what reconfigure() asked for is done.
   bool isReconfigured() const;
   /// A copy of the last frame that was shown whole; nothing before the first one, or without
-  /// OutputStageOptions::keepsLastFrame.
+  /// OutputStageOptions::keepsLastFrame. Where the GPU drew it into the display's memory, waits for
+  /// the output thread to read it, 100 ms of real time at most. Not on the output thread.
   std::optional<hal::Image> lastFrame() const;
 
   // Output thread.
@@ -127,6 +148,8 @@ class OutputStage {
   void retry();
   /// Whether OutputStageOptions::limit is reached.
   bool isFull() const;
+  /// Whether its display is switched off.
+  bool isBlanked() const;
   /// Whether all submitted frames have an outcome, and no waiting picture is on its way.
   bool isIdle() const;
 
@@ -139,7 +162,9 @@ class OutputStage {
     std::array<std::uint64_t, kOutcomes> ended{};
     double perSecond = 0.0;
     std::uint64_t presented = 0;
-    hal::Duration latencySum{0};  ///< over all presented frames
+    std::uint64_t waitingShown = 0;  ///< waiting pictures that a presentation event confirmed
+    std::uint64_t steps = 0;         ///< completed calls of step(): the output thread turns
+    hal::Duration latencySum{0};     ///< over all presented frames
     /// Recent times from capture until write() was called; for surfaces, until they were shown.
     DurationHistogram latency;
     DurationHistogram writing;  ///< recent durations of write(), or of filling and submit()
@@ -153,6 +178,7 @@ class OutputStage {
     bool isFinal = false;                       ///< failed, and will not be opened again
     std::optional<hal::Error> failure;          ///< the last one
     std::optional<hal::Suspension> suspension;  ///< of a display that shows nothing for now
+    ScanOut scanOut;                            ///< of an output that lends surfaces
     bool addsUp() const;                        ///< submitted = waiting + sum of ended
   };
   Status status() const;
@@ -170,6 +196,7 @@ class OutputStage {
     WaitingFrame frame;
     /// The refresh that it is due at, by the display's count; unset where that is not known.
     std::optional<std::uint64_t> dueRefresh;
+    bool isDirect = false;  ///< the GPU drew it into the surface
   };
   void handOver();
   std::optional<Due> takeDue();
@@ -177,6 +204,12 @@ class OutputStage {
   void presentInMemory(hal::MemoryOutput& output, const Due& due);
   void presentSurface(hal::SurfaceOutput& output, const Due& due);
   hal::Answer submitSurface(hal::SurfaceOutput& output, const Due& due);
+  hal::Result<std::optional<hal::Surface>> fillSurface(hal::SurfaceOutput& output,
+                                                       OutputFrame& frame, hal::Fence& fence);
+  void followLending();
+  void copyLastFrame();
+  void keepLastFrame();
+  void freeBuffer(std::size_t buffer);
   void takeEvents();
   void followSuspension(const hal::SurfaceOutput& output);
   Outcome outcomeWithoutSurface() const;
@@ -194,6 +227,9 @@ class OutputStage {
   void started(const hal::OutputFormat& format);
   void presentWaiting();
   hal::Answer submitWaiting(hal::SurfaceOutput& output, const hal::Image& picture);
+  hal::Result<hal::Fence> copyWaiting(const hal::Image& picture, hal::SurfaceOutput& output,
+                                      const hal::Surface& surface);
+  std::shared_ptr<const Caption> drawCaption(hal::Image& frame);
   void fadeIn(const Due& due);
   void retire(const WaitingFrame& frame);
   hal::Duration timeOf(const WaitingFrame& frame);
@@ -206,11 +242,14 @@ class OutputStage {
   std::vector<std::unique_ptr<OutputFrame>> buffers_;
   std::vector<hal::PresentationEvent> events_;  ///< a member so that its memory is reused
   FadeIn fade_;
-  bool isFaded_ = false;  ///< the frame that is being presented is not as it was painted
+  CaptionOverlay captions_;
+  SurfaceLending lending_;
+  bool isFaded_ = false;   ///< the frame that is being presented is not as it was painted
+  bool isDirect_ = false;  ///< it was drawn into the output's surface
 
   mutable std::mutex mutex_;  // guards the members below
-  std::condition_variable changed_;
-  bool isWoken_ = false;
+  mutable std::condition_variable changed_;
+  mutable bool isWoken_ = false;
   bool isSomebodyThere_ = false;  ///< since the last step()
   hal::OutputFormat format_;
   PresentationQueue queue_;
@@ -222,9 +261,19 @@ class OutputStage {
   bool isWriting_ = false;
   std::shared_ptr<const hal::Image> waiting_;  ///< to be shown
   bool waitingFades_ = true;
+  std::shared_ptr<const hal::Image> waitingSeen_;  ///< the last one that was handed over
+  std::shared_ptr<const Caption> caption_;
+  double captionOpacity_ = 0.0;
   std::optional<hal::SurfaceId> waitingSurface_;  ///< submitted, without an event
   std::optional<hal::OutputRequest> request_;     ///< for applyRequest()
   std::optional<std::size_t> last_;               ///< buffer of the last whole frame
+  bool isFading_ = false;                         ///< frames are blended with a picture
+  std::optional<hal::SurfaceId> directOnScreen_;  ///< the surface with the last whole frame
+  std::uint64_t directShown_ = 0;                 ///< how many of these there were
+  std::uint64_t directCopied_ = 0;                ///< directShown_ of lastCopy_
+  std::optional<hal::Image> lastCopy_;            ///< of the last whole frame, where not in last_
+  mutable bool isLastWanted_ = false;             ///< by lastFrame()
+  mutable std::condition_variable lastCopied_;
   hal::TimePoint reopenAt_;
   hal::Duration reopenAfter_;  ///< grows until a frame is shown
   Status status_;

@@ -43,6 +43,7 @@ void OutputStage::countShown(const WaitingFrame& frame, hal::TimePoint time) {
   reopenAfter_ = kFirstReopenDelay;
   ++status_.presented;
   status_.isWaitingShown = false;
+  waitingSeen_.reset();
   rate_.count(time);
   latency_.add(time - frame.captured, time);
 }
@@ -102,26 +103,50 @@ void OutputStage::noteFilling(hal::Duration took) {
   queue_.setLead(half + std::clamp(fillTime_ + fillTime_ / 4, half, half * 5 / 2));
 }
 
+/// The surface that has the frame: the one that it was drawn into, else one that it is copied to;
+/// nothing if none is free.
+hal::Result<std::optional<hal::Surface>> OutputStage::fillSurface(hal::SurfaceOutput& output,
+                                                                  OutputFrame& frame,
+                                                                  hal::Fence& fence) {
+  isDirect_ = frame.surface.has_value();
+  if (const auto drawn = std::exchange(frame.surface, std::nullopt)) {
+    if (!lending_.isCurrent(*drawn)) return std::nullopt;
+    lending_.countDirect();
+    hal::Surface surface;
+    surface.id = drawn->id;
+    return surface;
+  }
+  hal::Result<std::optional<hal::Surface>> surface = output.acquire();
+  if (!surface || !*surface) return surface;
+  const std::shared_ptr<const Caption> caption = drawCaption(frame.image);
+  hal::Result<hal::Fence> filled = options_.fill(frame, output, **surface);
+  if (caption) captions_.remove(frame.image, *caption);
+  if (!filled) {
+    output.release(**surface);
+    return tl::unexpected(filled.error());
+  }
+  fence = *std::move(filled);
+  return surface;
+}
+
 /// False if no surface is free.
 hal::Answer OutputStage::submitSurface(hal::SurfaceOutput& output, const Due& due) {
-  const hal::Result<std::optional<hal::Surface>> surface = output.acquire();
-  if (!surface) return tl::unexpected(surface.error());
-  if (!*surface) return false;
-  hal::Result<hal::Fence> fence = options_.fill(*buffers_.at(due.frame.buffer), output, **surface);
-  if (!fence) {
-    output.release(**surface);
-    return tl::unexpected(fence.error());
-  }
+  hal::Fence fence;
+  const auto filled = fillSurface(output, *buffers_.at(due.frame.buffer), fence);
+  if (!filled) return tl::unexpected(filled.error());
+  if (!*filled) return false;
+  const hal::Surface& surface = **filled;
   // A frame shown early, to avoid a freeze, is submitted for immediate display.
   const hal::TimePoint time =
       due.outcome == Outcome::kShown ? due.frame.due : std::min(due.frame.due, clock_.now());
-  const auto submitted = output.submit(**surface, *std::move(fence), time);
+  const auto submitted = output.submit(surface, std::move(fence), time);
   if (!submitted) return tl::unexpected(submitted.error());
   const std::scoped_lock lock(mutex_);
   // Told by the newest flip, which is at most some refreshes ago.
   const auto dueRefresh =
       refresh_ ? hal::sequenceAt(due.frame.due, *refresh_) : std::optional<std::uint64_t>();
-  queued_.push_back({.surface = (*surface)->id, .frame = due.frame, .dueRefresh = dueRefresh});
+  queued_.push_back(
+      {.surface = surface.id, .frame = due.frame, .dueRefresh = dueRefresh, .isDirect = isDirect_});
   return true;
 }
 
@@ -149,7 +174,10 @@ void OutputStage::followSuspension(const hal::SurfaceOutput& output) {
   const hal::Suspension* const now = output.suspension();
   if (now == nullptr) {
     status_.suspension.reset();
-  } else if (!status_.suspension || *status_.suspension != *now) {
+    return;
+  }
+  directOnScreen_.reset();  // what it shows afterwards may be black
+  if (!status_.suspension || *status_.suspension != *now) {
     status_.suspension = *now;
   }
 }
@@ -171,13 +199,23 @@ void OutputStage::ended(const hal::PresentationEvent& event) {
   }
   if (waitingSurface_ == event.surface) {
     waitingSurface_.reset();
-    if (!isShown) status_.isWaitingShown = false;
+    if (isShown) {
+      directOnScreen_.reset();
+      ++status_.waitingShown;
+    } else {
+      status_.isWaitingShown = false;
+    }
     return;
   }
   const auto queued = std::ranges::find(queued_, event.surface, &Queued::surface);
   assert(queued != queued_.end());
   const Outcome outcome = outcomeOf(event, *queued);
-  if (isShown) countShown(queued->frame, event.time);
+  if (isShown) {
+    countShown(queued->frame, event.time);
+    directOnScreen_.reset();
+    if (queued->isDirect) directOnScreen_ = event.surface;
+    if (queued->isDirect) ++directShown_;
+  }
   count(queued->frame, outcome,
         {.dueRefresh = queued->dueRefresh,
          .shown = isShown ? std::optional(event.time) : std::nullopt,

@@ -1,4 +1,4 @@
-// What an output stage does with waiting pictures.
+// What an output stage does with waiting pictures, and with captions.
 #include <memory>
 #include <optional>
 #include <utility>
@@ -33,16 +33,23 @@ void OutputStage::presentWaiting() {
     fades = waitingFades_;
   }
   hal::SurfaceOutput* surfaces = output_->surfaces();
-  const bool fits = surfaces != nullptr && picture->format() == format_.frame;
-  const hal::Answer submitted = fits ? submitWaiting(*surfaces, *picture) : hal::Answer(true);
+  const bool fits = picture->format() == format_.frame;
+  hal::Answer submitted(true);
+  if (fits && surfaces != nullptr) submitted = submitWaiting(*surfaces, *picture);
+  if (fits && surfaces == nullptr) {
+    const auto written = output_->memory()->write(picture->view(), {});
+    if (!written) submitted = tl::unexpected(written.error());
+  }
   if (submitted.hasError() || (fits && submitted.isYes())) fade_.end();
   if (fits && submitted.isYes() && fades) fade_.begin(picture);
   const std::scoped_lock lock(mutex_);
+  isFading_ = fade_.isOn();
   if (submitted.hasError()) {
     fail(submitted.error());
   } else if (submitted.isYes()) {
     if (waiting_ == picture) waiting_.reset();  // else another one has come meanwhile
     status_.isWaitingShown = status_.isWaitingShown || fits;
+    if (fits) waitingSeen_ = picture;
   }
 }
 
@@ -51,7 +58,7 @@ hal::Answer OutputStage::submitWaiting(hal::SurfaceOutput& output, const hal::Im
   const hal::Result<std::optional<hal::Surface>> surface = output.acquire();
   if (!surface) return tl::unexpected(surface.error());
   if (!*surface) return false;
-  hal::Result<hal::Fence> fence = copyImage(picture.view(), output, **surface);
+  hal::Result<hal::Fence> fence = copyWaiting(picture, output, **surface);
   if (!fence) {
     output.release(**surface);
     return tl::unexpected(fence.error());
@@ -63,17 +70,56 @@ hal::Answer OutputStage::submitWaiting(hal::SurfaceOutput& output, const hal::Im
   return true;
 }
 
-std::optional<hal::Image> OutputStage::lastFrame() const {
+/// With the caption.
+hal::Result<hal::Fence> OutputStage::copyWaiting(const hal::Image& picture,
+                                                 hal::SurfaceOutput& output,
+                                                 const hal::Surface& surface) {
+  bool isCaptioned = false;
+  {
+    const std::scoped_lock lock(mutex_);
+    isCaptioned = caption_ != nullptr;
+  }
+  if (!isCaptioned) return copyImage(picture.view(), output, surface);
+  hal::Image captioned = picture;
+  drawCaption(captioned);
+  return copyImage(captioned.view(), output, surface);
+}
+
+void OutputStage::setCaption(std::shared_ptr<const Caption> caption, double opacity) {
   const std::scoped_lock lock(mutex_);
-  if (!last_) return std::nullopt;
-  return buffers_.at(*last_)->image;
+  if (caption == caption_ && opacity == captionOpacity_) return;
+  caption_ = std::move(caption);
+  captionOpacity_ = opacity;
+  // Frames bring it along by themselves.
+  if (!status_.isWaitingShown || !waitingSeen_ || waiting_) return;
+  waiting_ = waitingSeen_;
+  isWoken_ = true;
+  changed_.notify_all();
+}
+
+/// Returns what is to be taken off again; null where there is nothing.
+std::shared_ptr<const Caption> OutputStage::drawCaption(hal::Image& frame) {
+  std::shared_ptr<const Caption> caption;
+  double opacity = 0.0;
+  {
+    const std::scoped_lock lock(mutex_);
+    caption = caption_;
+    opacity = captionOpacity_;
+  }
+  if (!caption || !captions_.draw(frame, *caption, opacity)) return nullptr;
+  return caption;
 }
 
 /// Blends what a waiting picture leaves of itself into a frame.
 void OutputStage::fadeIn(const Due& due) {
   isFaded_ = false;
   if (!fade_.isOn()) return;
-  isFaded_ = !fade_.apply(buffers_.at(due.frame.buffer)->image, due.frame.due);
+  OutputFrame& frame = *buffers_.at(due.frame.buffer);
+  // It was taken for the GPU before the picture came.
+  if (frame.surface) fade_.end();
+  isFaded_ = !fade_.apply(frame.image, due.frame.due);
+  const std::scoped_lock lock(mutex_);
+  isFading_ = fade_.isOn();
 }
 
 }  // namespace pleinair::runtime

@@ -73,17 +73,22 @@ void PaintStage::start() {
   }
   nextId_ = formats.size();
   painter_ = factory_(formats);
+  for (const Output& output : outputs_) offer(output);
   const std::scoped_lock lock(mutex_);
   hasPainter_ = true;
+  isRenewing_ = isToRenew_;
 }
 
 bool PaintStage::step() {
   noteSuspension();
   handleRequests();
   followFormats();
+  retireIfIdle();
   if (!painter_ && !revive()) return false;
+  followLoans();
   bool didAnything = collect();
-  if (painter_ && inFlight_.size() < kMaxInFlight) didAnything = paintNewest() || didAnything;
+  const bool mayBegin = painter_ && !isToRenew_ && inFlight_.size() < kMaxInFlight;
+  if (mayBegin) didAnything = paintNewest() || didAnything;
   busy_ = inFlight_.size();
   return didAnything;
 }
@@ -150,9 +155,46 @@ void PaintStage::openInPainter(Output& output) {
   if (!painter_) return;
   try {
     painter_->open(output.id, output.format);
+    offer(output);
   } catch (const hal::Failure& error) {
     lose(error.error());
   }
+}
+
+/// The painter's imports belong to one opening of the output.
+void PaintStage::offer(const Output& output) {
+  output.stage->lending().offer(painter_->drawable());
+  output.stage->wake();
+}
+
+/// Draws the pattern into surfaces that were lent.
+void PaintStage::followLoans() {
+  for (const Output& output : outputs_) {
+    if (!painter_) return;
+    SurfaceLending& lending = output.stage->lending();
+    const std::shared_ptr<const SurfaceLoan> loan = lending.toImport();
+    if (!loan) continue;
+    const hal::Result<void> drawn = painter_->importLoan(output.id, *loan);
+    if (!drawn && drawn.error().kind == hal::ErrorKind::kTimeout) continue;
+    lending.imported(loan->number, drawn);
+    output.stage->wake();
+    if (!drawn && drawn.error().kind == hal::ErrorKind::kDeviceLost) lose(drawn.error());
+  }
+}
+
+void PaintStage::takeSurfaces() {
+  taken_.clear();
+  for (const Output& output : outputs_) {
+    if (const auto surface = output.stage->takeSurface()) {
+      taken_.emplace_back(output.stage, *surface);
+      painter_->drawNextInto(output.id, *surface);
+    }
+  }
+}
+
+/// The frame was not painted.
+void PaintStage::giveSurfacesBack() {
+  for (const auto& [stage, surface] : taken_) stage->lending().giveBack(surface);
 }
 
 /// Ends the frames in flight that an output has not got.
@@ -268,6 +310,11 @@ hal::Result<void> PaintStage::paint(const ArrivedFrame& arrived) {
     ledger_.end(arrived.ticket, Outcome::kOutputFailed);
     return {};
   }
+  if (isSpared(clock_.now())) {
+    ledger_.end(arrived.ticket, Outcome::kBlanked);
+    return {};
+  }
+  lastBegun_ = clock_.now();
   const bool isRepeat = isPaused_ && held_;
   if (!isRepeat) hold(frame);
   InFlight painting{.ticket = arrived.ticket,
@@ -281,7 +328,11 @@ hal::Result<void> PaintStage::paint(const ArrivedFrame& arrived) {
   }
   hal::CapturedFrame repeated = frame;
   if (isRepeat) repeated.image = held_->view();
-  if (auto painted = painter_->paint(repeated, painting.quality); !painted) return painted;
+  takeSurfaces();
+  if (auto painted = painter_->paint(repeated, painting.quality); !painted) {
+    giveSurfacesBack();
+    return painted;
+  }
   painting.issued = clock_.now();
   if (isRepeat) {
     ledger_.end(arrived.ticket, Outcome::kPaused);
@@ -291,10 +342,20 @@ hal::Result<void> PaintStage::paint(const ArrivedFrame& arrived) {
   }
   inFlight_.push_back(painting);
   const std::scoped_lock lock(mutex_);
+  // In place: allocates only for a longer reason.
+  if (const CameraPath* const path = painter_->cameraPath()) cameraPath_ = *path;
   stages_.at(kDelay).add(arrived.arrived - frame.captureTime, painting.began);
   stages_.at(kWaiting).add(painting.began - arrived.arrived, painting.began);
   stages_.at(kIssuing).add(painting.issued - painting.began, painting.issued);
   return {};
+}
+
+/// While all displays are switched off, and nothing else takes frames, they are painted only now
+/// and then: what spans frames stays near to what the camera sees, and power is saved.
+bool PaintStage::isSpared(hal::TimePoint now) const {
+  constexpr hal::Duration kInterval = std::chrono::seconds(1);
+  return now - lastBegun_ < kInterval &&
+         std::ranges::all_of(outputs_, [](const Output& each) { return each.stage->isBlanked(); });
 }
 
 void PaintStage::hold(const hal::CapturedFrame& frame) {
@@ -351,6 +412,25 @@ bool PaintStage::revive() {
   }
 }
 
+void PaintStage::renew() {
+  {
+    const std::scoped_lock lock(mutex_);
+    isRenewing_ = true;
+  }
+  isToRenew_ = true;
+  wake();
+}
+
+/// Destroys a painter that is to be replaced, once it has nothing in flight.
+void PaintStage::retireIfIdle() {
+  if (!isToRenew_ || (painter_ && !inFlight_.empty())) return;
+  isToRenew_ = false;
+  painter_.reset();
+  reviveAt_ = clock_.now();
+  const std::scoped_lock lock(mutex_);
+  hasPainter_ = false;
+}
+
 void PaintStage::wait() {
   if (!painter_) {
     std::this_thread::sleep_for(kRevivalPoll);  // a frame in the mailbox would end a wait at once
@@ -381,10 +461,12 @@ PaintStage::Status PaintStage::status() const {
                 .failures = failures_,
                 .contextLosses = contextLosses_,
                 .hasPainter = hasPainter_,
+                .isRenewing = isRenewing_,
                 .failure = failure_,
                 .perSecond = rate_.perSecond(clock_.now()),
                 .load = load_,
-                .passes = passes_};
+                .passes = passes_,
+                .cameraPath = cameraPath_};
   const hal::TimePoint now = clock_.now();
   for (std::size_t i = 0; i < stages_.size(); ++i) {
     const RecentDurations& each = stages_.at(i);

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hal/clock.h"
@@ -68,6 +69,10 @@ class PaintStage {
   /// remove() is pending. Any thread.
   bool hasReleased(const OutputStage& output) const;
 
+  /// Makes another painter in place of this one, which paints in another way. No frame is begun
+  /// until it is there; those in flight are finished by the old one. Any thread.
+  void renew();
+
   /// During a pause the last frame is painted repeatedly, so that changed parameters show.
   void setPaused(bool on) { isPaused_ = on; }
   /// Whether a frame is in flight.
@@ -86,11 +91,13 @@ class PaintStage {
     std::uint64_t latencyRaised = 0, latencyLowered = 0;
     std::uint64_t painted = 0, failures = 0, contextLosses = 0;
     bool hasPainter = false;
+    bool isRenewing = false;            ///< after renew(), until there is a new painter
     std::optional<hal::Error> failure;  ///< the last one
     double perSecond = 0.0;
     double load = 0.0;  ///< share of its budget that the last frame took
     std::vector<Stage> stages;
-    std::vector<gpu::PassTime> passes;  ///< in the timed frames
+    std::vector<gpu::PassTime> passes;     ///< in the timed frames
+    std::optional<CameraPath> cameraPath;  ///< of frames to the GPU, once one was painted
   };
   Status status() const;
 
@@ -119,6 +126,10 @@ class PaintStage {
   void followFormats();
   void open(OutputStage& output);
   void openInPainter(Output& output);
+  void offer(const Output& output);
+  void followLoans();
+  void takeSurfaces();
+  void giveSurfacesBack();
   void close(OutputStage& output);
   void dropInFlight(const Output& output);
   bool collect();
@@ -128,11 +139,13 @@ class PaintStage {
   double loadOf(const InFlight& frame, hal::TimePoint now) const;
   bool paintNewest();
   hal::Result<void> paint(const ArrivedFrame& arrived);
+  bool isSpared(hal::TimePoint now) const;
   void hold(const hal::CapturedFrame& frame);
   void refuse(const ArrivedFrame& arrived, const hal::Error& error);
   void endInFlight(Outcome outcome);
   void lose(const hal::Error& error);
   bool revive();
+  void retireIfIdle();
 
   PainterFactory factory_;
   std::vector<Output> outputs_;
@@ -146,11 +159,15 @@ class PaintStage {
   hal::TimePoint reviveAt_;
   hal::Duration reviveAfter_;
   std::vector<InFlight> inFlight_;  ///< oldest first, at most kMaxInFlight
+  /// Surfaces for the frame that is about to be painted.
+  std::vector<std::pair<OutputStage*, hal::LentSurface>> taken_;
   std::optional<hal::Image> held_;  ///< the image to repeat during a pause
   hal::TimePoint lastFinished_;
+  hal::TimePoint lastBegun_;  ///< when the last painting was
   hal::TimePoint lastStep_;
   hal::TimePoint resumedAt_;
   std::atomic<bool> isPaused_ = false;
+  std::atomic<bool> isToRenew_ = false;
   std::atomic<std::size_t> busy_ = 0;
 
   enum StageIndex : std::size_t { kDelay, kWaiting, kIssuing, kFinishing, kReady };
@@ -162,8 +179,10 @@ class PaintStage {
   std::uint64_t painted_ = 0, failures_ = 0, contextLosses_ = 0;
   std::optional<hal::Error> failure_;
   bool hasPainter_ = false;
+  bool isRenewing_ = false;
   double load_ = 0.0;
   std::vector<gpu::PassTime> passes_;
+  std::optional<CameraPath> cameraPath_;
   std::vector<OutputStage*> toOpen_;   ///< requests of add()
   std::vector<OutputStage*> toClose_;  ///< requests of remove()
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "hal/clock.h"
@@ -7,6 +8,7 @@
 #include "pipeline/runtime/frame_ledger.h"
 #include "pipeline/runtime/output_stage.h"
 #include "pipeline/runtime/paint_stage.h"
+#include "pipeline/runtime/procedure_status.h"
 
 namespace pleinair::runtime {
 
@@ -17,6 +19,7 @@ struct RuntimeStatus {
   PaintStage::Status painting;
   std::vector<OutputStage::Status> outputs;
   LedgerCounts ledger;
+  std::optional<ProcedureStatus> procedure;  ///< where one is carried out
 
   /// Whether the camera streams, there is a painter, and every output takes frames or is
   /// suspended.

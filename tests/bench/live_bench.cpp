@@ -59,12 +59,14 @@ Late runLive(hal::FrameSize size, const std::string& style, hal::Duration latenc
   auto output = std::make_unique<support::CapturingOutput>(notes, clock);
   const auto format = *output->start({.size = size, .framePeriod = {}});
   chain.addOutput(std::move(output), format, {.name = "paced", .waiting = 16});
-  app::LiveControls controls({.style = styles::styleKind(style).defaults, .view = {}});
+  app::LiveControls controls(
+      {.style = style, .painting = {.style = styles::styleKind(style).defaults, .view = {}}});
   chain.makePaintStage(
       [&](const auto& formats) -> std::unique_ptr<runtime::FramePainter> {
         if (style == "none") return std::make_unique<support::PassThroughPainter>(formats.size());
         const PainterOptions options{.pictureSize = size, .style = style, .qualityLevels = true};
-        return std::make_unique<app::LivePainter>(options, formats, controls);
+        return std::make_unique<app::LivePainter>(options, formats, controls,
+                                                  controls.parameters());
       },
       {.governor = {.levels = qualityLevels().size(), .pinned = {}},
        .latency = {.configured = latency},

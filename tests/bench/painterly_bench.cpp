@@ -177,8 +177,9 @@ void stylization(benchmark::State& state) {
   for (const hal::CapturedFrame& each : workbench(sizeOf(state))) {
     cv::Mat bgr;
     const hal::FrameSize size = each.image.format.size;
-    auto* const luma = const_cast<std::uint8_t*>(each.image.row(0, 0).data());
-    cv::cvtColor(cv::Mat(size.height, size.width, CV_8UC1, luma, each.image.planes[0].strideBytes),
+    auto* const luma = const_cast<std::uint8_t*>(each.image.map().view().row(0, 0).data());
+    cv::cvtColor(cv::Mat(size.height, size.width, CV_8UC1, luma,
+                         each.image.map().view().planes[0].strideBytes),
                  bgr, cv::COLOR_GRAY2BGR);
     frames.push_back(bgr);
   }

@@ -4,7 +4,9 @@
 // says INSTANTIATE_TEST_SUITE_P(Name, CameraConformance, testing::Values(CameraCase{...}),
 // cameraCaseName) in namespace pleinair::hal::conformance.
 
+#include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -28,6 +30,8 @@ struct CameraCase {
   std::string backend;  ///< expected identity().backend
   /// Frames until EndOfStream; 0: it goes on for ever.
   std::uint64_t frames = 0;
+  /// Whether its frames come in real time, whatever the clock of the test says.
+  bool isLive = false;
 };
 
 inline void PrintTo(const CameraCase& camera, std::ostream* out) {
@@ -46,6 +50,13 @@ class CameraConformance : public testing::TestWithParam<CameraCase> {
     return GetParam().frames == 0 ? kEnoughFrames : GetParam().frames;
   }
   std::unique_ptr<Camera> make() { return GetParam().make(clock_); }
+
+  /// How much later than its deadline a camera may answer, which shows in real time only.
+  static constexpr Duration kLiveSlack = std::chrono::milliseconds(500);
+
+  void pause() {
+    if (!GetParam().isLive) stepped_.advance(std::chrono::seconds(5));
+  }
 
   static StreamFormat startOrFail(Camera& camera, const StreamRequest& request = {}) {
     Result<StreamFormat> format = camera.start(request);
@@ -88,7 +99,9 @@ class CameraConformance : public testing::TestWithParam<CameraCase> {
     return bytes;
   }
 
-  SteppedClock clock_{TimePoint(std::chrono::seconds(100))};
+  SteppedClock stepped_{TimePoint(std::chrono::seconds(100))};
+  SteadyClock steady_;
+  Clock& clock_ = GetParam().isLive ? static_cast<Clock&>(steady_) : stepped_;
 };
 
 TEST_P(CameraConformance, SaysWhoItIs) {
@@ -120,6 +133,52 @@ TEST_P(CameraConformance, DeliversWhatWasNegotiated) {
   EXPECT_EQ(taken, framesToAskFor());
 }
 
+TEST_P(CameraConformance, TellsWhereItsFramesLie) {
+  const std::unique_ptr<Camera> camera = make();
+  const StreamFormat format = startOrFail(*camera);
+  std::map<std::uint32_t, std::array<DmaBufPlane, 3>> places;  // by buffer
+  std::uint64_t pool = 0;
+  std::uint64_t taken = 0;
+  StreamFormat now = format;
+  for (; taken < framesToAskFor(); ++taken) {
+    const std::optional<CapturedFrame> frame = nextFrame(*camera, now);
+    if (!frame) break;
+    const int planes = planeCount(frame->image.format.pixelFormat);
+    for (int i = 0; i < planes; ++i) {
+      const DmaBufPlane& plane = frame->dmaBufs.at(static_cast<std::size_t>(i));
+      EXPECT_EQ(plane.fd >= 0, static_cast<bool>(frame->buffer)) << "plane " << i;
+      if (plane.fd < 0) continue;
+      EXPECT_EQ(plane.strideBytes, frame->image.strideBytes(i)) << "plane " << i;
+    }
+    if (!frame->buffer) continue;
+    EXPECT_NE(format.memory, FrameMemory::kProcessor);
+    if (pool == 0) pool = frame->buffer.pool;
+    EXPECT_EQ(frame->buffer.pool, pool) << "one pool a stream";
+    const auto known = places.try_emplace(frame->buffer.index, frame->dmaBufs).first;
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(known->second.at(i).fd, frame->dmaBufs.at(i).fd) << "a buffer stays where it is";
+    }
+  }
+  EXPECT_EQ(taken, framesToAskFor());
+  camera->stop();
+  now = startOrFail(*camera);
+  if (const auto again = nextFrame(*camera, now); again && again->buffer) {
+    EXPECT_NE(again->buffer.pool, pool) << "numbers of pools are used once";
+  }
+}
+
+TEST_P(CameraConformance, MapsAFrameAsOftenAsWanted) {
+  const std::unique_ptr<Camera> camera = make();
+  StreamFormat format = startOrFail(*camera);
+  const std::optional<CapturedFrame> frame = nextFrame(*camera, format);
+  ASSERT_TRUE(frame);
+  const std::vector<std::uint8_t> once = bytesOf(frame->image.map().view());
+  const FrameMapping outer = frame->image.map();
+  EXPECT_EQ(bytesOf(frame->image.map().view()), once);
+  EXPECT_EQ(bytesOf(outer.view()), once);
+  EXPECT_TRUE(outer.view().isComplete());
+}
+
 TEST_P(CameraConformance, CountsAndTimesRise) {
   const std::unique_ptr<Camera> camera = make();
   const TimePoint before = clock_.now();
@@ -139,14 +198,15 @@ TEST_P(CameraConformance, WaitsForNoFrameBeyondTheDeadline) {
   const std::unique_ptr<Camera> camera = make();
   startOrFail(*camera);
   std::uint64_t taken = 0;
+  const Duration slack = GetParam().isLive ? kLiveSlack : Duration::zero();
   // Each wait ends at its deadline, and frames come all the same in time.
-  for (int i = 0; i < 2000 && taken < framesToAskFor(); ++i) {
+  for (int i = 0; i < 5000 && taken < framesToAskFor(); ++i) {
     const TimePoint deadline = clock_.now() + std::chrono::milliseconds(1);
     const NextFrame next = camera->next(deadline);
-    EXPECT_LE(clock_.now(), deadline);
+    EXPECT_LE(clock_.now(), deadline + slack);
     if (std::holds_alternative<CapturedFrame>(next)) ++taken;
     if (std::holds_alternative<CameraTimeout>(next)) {
-      EXPECT_EQ(clock_.now(), deadline) << "a timeout before its time";
+      EXPECT_GE(clock_.now(), deadline) << "a timeout before its time";
     }
   }
   EXPECT_EQ(taken, framesToAskFor());
@@ -157,7 +217,7 @@ TEST_P(CameraConformance, DoesNotWaitAtAllForADeadlineThatHasPassed) {
   startOrFail(*camera);
   const TimePoint now = clock_.now();
   for (int i = 0; i < 3; ++i) camera->next(now - std::chrono::seconds(1));
-  EXPECT_EQ(clock_.now(), now);
+  EXPECT_LE(clock_.now(), now + (GetParam().isLive ? kLiveSlack : Duration::zero()));
 }
 
 TEST_P(CameraConformance, StartsAgainAsOftenAsWanted) {
@@ -171,7 +231,7 @@ TEST_P(CameraConformance, StartsAgainAsOftenAsWanted) {
     EXPECT_GE(taken[0].captureTime, before);
     camera->stop();
     camera->stop();  // idempotent
-    clock_.advance(std::chrono::seconds(5));
+    pause();
   }
 }
 
@@ -186,7 +246,7 @@ TEST_P(CameraConformance, GivesTheSamePicturesAfterARestart) {
     const StreamFormat format = startOrFail(*camera);
     const std::vector<CapturedFrame> taken = frames(*camera, format, framesToAskFor());
     for (std::size_t i = 0; i < taken.size(); ++i) {
-      std::vector<std::uint8_t> bytes = bytesOf(taken[i].image);
+      std::vector<std::uint8_t> bytes = bytesOf(taken[i].image.map().view());
       const Duration time = taken[i].captureTime - start;
       for (int shift = 0; shift < 64; shift += 8) {
         bytes.push_back(static_cast<std::uint8_t>(time.count() >> shift & 0xFF));
@@ -209,11 +269,13 @@ TEST_P(CameraConformance, LendsFramesThatOutliveStopAndCamera) {
   std::vector<CapturedFrame> taken = frames(*camera, format, 2);
   ASSERT_FALSE(taken.empty());
   std::vector<std::vector<std::uint8_t>> before;
-  for (const CapturedFrame& frame : taken) before.push_back(bytesOf(frame.image));
+  for (const CapturedFrame& frame : taken) before.push_back(bytesOf(frame.image.map().view()));
   camera->stop();
-  for (std::size_t i = 0; i < taken.size(); ++i) EXPECT_TRUE(bytesOf(taken[i].image) == before[i]);
+  for (std::size_t i = 0; i < taken.size(); ++i)
+    EXPECT_TRUE(bytesOf(taken[i].image.map().view()) == before[i]);
   camera.reset();
-  for (std::size_t i = 0; i < taken.size(); ++i) EXPECT_TRUE(bytesOf(taken[i].image) == before[i]);
+  for (std::size_t i = 0; i < taken.size(); ++i)
+    EXPECT_TRUE(bytesOf(taken[i].image.map().view()) == before[i]);
 }
 
 TEST_P(CameraConformance, TakesLeasesBackFromAnyThreadWhileItStreams) {

@@ -16,7 +16,7 @@ struct Reader {
 
   /// Each returns whether to go on.
   bool operator()(const hal::CapturedFrame& frame) {
-    fuzz::touch(frame.image);
+    fuzz::touch(frame.image.map().view());
     if (frame.captureTime <= last) fuzz::fail("time does not rise");
     if (sequence && frame.sequence <= *sequence) fuzz::fail("sequence does not rise");
     last = frame.captureTime;

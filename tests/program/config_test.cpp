@@ -219,7 +219,7 @@ TEST_F(ConfigSubcommand, LateErrorsNameThePlaceOfTheValue) {
                 HasSubstr(site + ":4: painting.scene: " + path("gone.toml") + ": cannot open: "));
   expectRefused(runProgram({"record", "--output", path("o.png"), "--camera", "synthtic"}),
                 HasSubstr("--camera: found \"synthtic\" (did you mean \"synthetic\"?), allowed: "
-                          "auto, v4l2, synthetic, synthetic:walkaround, "));
+                          "auto, libcamera, v4l2, aravis, synthetic, synthetic:walkaround, "));
 }
 
 TEST_F(ConfigSubcommand, NothingIsWrittenOverWhatWasRead) {

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <thread>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -147,6 +148,71 @@ TEST_F(Everyday, StopsPaintingIntoAPipeThatNobodyReads) {
       runProgram({"render", "--input", path("in.y4m"), "--output", "-", "--style", "none"}, limits);
   EXPECT_EQ(run.status, 1);
   EXPECT_EQ(run.error, "pleinair: standard output: cannot write: Broken pipe\n");
+}
+
+TEST_F(Everyday, PaintsSeveralFilesEachIntoItsOwn) {
+  writeMedia(path("a.y4m"), 3);
+  writeMedia(path("b.png"), 1);
+  std::ofstream(path("broken.mp4")) << "no movie";
+  std::filesystem::create_directory(path("out"));
+  const ProgramRun run =
+      runProgram({"render", "--style", "none", path("a.y4m"), path("broken.mp4"), path("b.png"),
+                  "--output", path("out/{name}.mkv"), "--poses", path("out/{name}.jsonl")});
+  EXPECT_EQ(run.status, 2) << "that of the broken one";
+  EXPECT_THAT(run.error, HasSubstr(path("broken.mp4")));
+  EXPECT_EQ(play(path("out/a.mkv"))->frames.size(), 3U);
+  EXPECT_EQ(play(path("out/b.mkv"))->frames.size(), 1U);
+  EXPECT_EQ(filesIn("out"), 4U);
+}
+
+TEST_F(Everyday, RefusesSeveralFilesForOneOutput) {
+  writeMedia(path("a.y4m"), 1);
+  std::filesystem::create_directory(path("sub"));
+  writeMedia(path("sub/a.y4m"), 1);
+  const ProgramRun one =
+      runProgram({"render", path("a.y4m"), path("sub/a.y4m"), "--output", path("out.mp4")});
+  EXPECT_EQ(one.status, 2);
+  EXPECT_THAT(one.error, HasSubstr("out.mp4: is one --output for 2 inputs; write {name} in it"));
+  const ProgramRun same =
+      runProgram({"render", path("a.y4m"), path("sub/a.y4m"), "--output", path("{name}.mp4")});
+  EXPECT_EQ(same.status, 2);
+  EXPECT_THAT(same.error, HasSubstr("a.mp4: is --output as well"));
+  EXPECT_EQ(folder_.entryCount(), 2U);
+}
+
+TEST_F(Everyday, WritesTheFormatsThatItIsAskedFor) {
+  writeMedia(path("in.y4m"), 2);
+  const auto render = [&](const std::string& output, std::vector<std::string> options) {
+    std::vector<std::string> arguments{"render", "--style",      "none",     "--frames",
+                                       "1",      path("in.y4m"), "--output", path(output)};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return runProgram(arguments);
+  };
+  for (const auto& [output, options] : {std::pair<std::string, std::vector<std::string>>{
+                                            "a.jpg", {"--quality", "80", "--dpi", "300"}},
+                                        {"b.tiff", {"--dpi", "300"}},
+                                        {"c-%02d.jpg", {}},
+                                        {"d.mkv", {"--codec", "ffv1"}},
+                                        {"e.mp4", {"--codec", "hevc", "--crf", "30"}}}) {
+    const ProgramRun run = render(output, options);
+    EXPECT_EQ(run.status, 0) << run.error;
+    EXPECT_EQ(run.error, "");
+  }
+  EXPECT_TRUE(hal::readPicture(path("c-00.jpg")));
+  for (const auto& [output, options, problem] :
+       {std::tuple<std::string, std::vector<std::string>, std::string>{
+            "x.png", {"--quality", "80"}, "--quality: is of JPEG"},
+        {"x.mp4", {"--dpi", "80"}, "--dpi: is of pictures"},
+        {"x.jpg", {"--crf", "20"}, "--crf: is of movies"},
+        {"x.mp4", {"--crf", "60"}, "--crf: found 60; give 0 to 51"},
+        {"x.y4m", {"--codec", "hevc"}, "--codec: is of movies"},
+        {"x.mp4", {"--codec", "ffv1"}, "cannot hold FFV1"},
+        {"x.mp4", {"--codec", "divx"}, "--codec: divx not in"}}) {
+    const ProgramRun run = render(output, options);
+    EXPECT_EQ(run.status, 2) << problem;
+    EXPECT_THAT(run.error, HasSubstr(problem));
+    EXPECT_EQ(bytesOf(output), 0U);
+  }
 }
 
 TEST_F(Everyday, NamesTheFilesOfAFolderThatItLeavesOut) {

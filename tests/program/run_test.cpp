@@ -282,6 +282,26 @@ TEST_F(RunInWindow, ObeysKeys) {
   EXPECT_EQ(summaryOf(live.out).dropped, summaryOf(live.out).reasons) << live.out;
 }
 
+TEST_F(RunInWindow, SavesWhatIsTunedAndSaysHowToRepeatIt) {
+  writeMedia(path("in.y4m"), 5, kSize);
+  std::filesystem::create_directory(path("saved"));
+  const ProgramRun live = runShown(
+      {"--camera", path("in.y4m"), "--snapshots", path("saved"), "--look", "glazed"}, [&](pid_t) {
+        waitForTitle("watercolor.*glazed");
+        server_->press({"Right", "w"});
+        waitForSnapshots(path("saved"), 1);
+        server_->press({"c", "q"});
+      });
+  EXPECT_EQ(live.status, 0) << live.error;
+  EXPECT_THAT(live.error, HasSubstr("pleinair run --camera " + path("in.y4m") + " --snapshots " +
+                                    path("saved") + " --style watercolor --look glazed --set "));
+  const std::filesystem::path look = *std::filesystem::directory_iterator(path("saved"));
+  EXPECT_EQ(look.extension(), ".toml");
+  const ProgramRun config = runProgram({"config", "--look", look.string()});
+  EXPECT_EQ(config.status, 0) << config.error;
+  EXPECT_THAT(config.out, HasSubstr("# " + look.string() + ":"));
+}
+
 TEST_F(RunInWindow, SavesTheFinishedPictureUnderAnyView) {
   hal::Image picture = testPicture(kRgb, 0);
   hal::orThrow(hal::writePng(path("in.png"), picture.view()));
@@ -348,6 +368,49 @@ TEST_F(RunInWindow, FillsTheScreenWithoutAWindowManager) {
     EXPECT_TRUE(comes(false));
     server_->press({"q"});
   });
+  EXPECT_EQ(live.status, 0) << live.error;
+}
+
+TEST_F(RunInWindow, StandsInAPublicPlace) {
+  hal::Image picture(kRgb);
+  std::ranges::fill(picture.plane(0), std::uint8_t{90});
+  hal::orThrow(hal::writePng(path("in.png"), picture.view()));
+  bool isFilled = false;
+  const ProgramRun live = runShown(
+      {"--camera", path("in.png"), "--style", "none", "--set", "output.window.full_screen=on",
+       "--set", "output.window.rotation=90", "--set", "output.window.keys=locked"},
+      [&](pid_t program) {
+        waitForTitle("none.*");
+        const auto deadline = std::chrono::steady_clock::now() + kPatience;
+        while (!isFilled && std::chrono::steady_clock::now() < deadline) {
+          hal::Image screen = server_->screen();
+          // 4:3, turned: 450 of 800 columns.
+          const auto red = [&](int x) { return screen.row(0, 3)[3 * static_cast<std::size_t>(x)]; };
+          isFilled = red(180) == 90 && red(620) == 90 && red(170) == 0 && red(630) == 0;
+        }
+        server_->press({"q", "Escape"});
+        waitForTitle("none.*");
+        std::this_thread::sleep_for(300ms);
+        EXPECT_EQ(kill(program, SIGTERM), 0) << "the keys ended it";
+      });
+  EXPECT_TRUE(isFilled);
+  EXPECT_EQ(live.status, 0) << live.error;
+}
+
+TEST_F(RunInWindow, ShowsThatItWaitsForACamera) {
+  bool isThere = false;
+  const ProgramRun live =
+      runShown({"--camera", "serial:none-such", "--set", "camera.wait=true"}, [&](pid_t program) {
+        waitForTitle(".*");
+        const auto deadline = std::chrono::steady_clock::now() + kPatience;
+        while (!isThere && std::chrono::steady_clock::now() < deadline) {
+          hal::Image screen = server_->screen();
+          const auto middle = screen.row(0, kScreen.height / 2);
+          isThere = middle[std::size_t{3} * kScreen.width / 2] > 100;
+        }
+        kill(program, SIGTERM);
+      });
+  EXPECT_TRUE(isThere) << "paper";
   EXPECT_EQ(live.status, 0) << live.error;
 }
 

@@ -20,6 +20,7 @@ using hal::display::CardState;
 using hal::display::Change;
 using hal::display::Commit;
 using hal::display::FlipEvent;
+using hal::display::GpuBuffer;
 using hal::display::ObjectId;
 using hal::display::Property;
 using hal::display::SavedCrtc;
@@ -34,9 +35,9 @@ constexpr ObjectId kConsole = 900;  ///< the console's framebuffer
 constexpr std::size_t kPixelBytes = 4;
 
 /// Property ids are those of a kernel: one for each name, whatever the object.
-constexpr std::array<std::string_view, 14> kNames{
-    "CRTC_ID", "MODE_ID", "ACTIVE", "FB_ID",  "SRC_X",  "SRC_Y", "SRC_W",
-    "SRC_H",   "CRTC_X",  "CRTC_Y", "CRTC_W", "CRTC_H", "type",  "EDID"};
+constexpr std::array<std::string_view, 15> kNames{
+    "CRTC_ID", "MODE_ID", "ACTIVE", "FB_ID",  "SRC_X", "SRC_Y", "SRC_W",      "SRC_H",
+    "CRTC_X",  "CRTC_Y",  "CRTC_W", "CRTC_H", "type",  "EDID",  "IN_FENCE_FD"};
 
 ObjectId idOf(std::string_view name) {
   const auto at = std::ranges::find(kNames, name);
@@ -57,6 +58,12 @@ hal::display::Mode modeOf(const FakeMode& from) {
   return mode;
 }
 
+/// Of a plane's source, in 1/65536 px.
+struct Offset {
+  std::uint64_t x = 0;
+  std::uint64_t y = 0;
+};
+
 struct Crtc {
   bool isActive = false;
   std::optional<FakeMode> mode;
@@ -64,11 +71,14 @@ struct Crtc {
   ObjectId connector = 0;
   ObjectId pending = 0;  ///< framebuffer of the flip that waits
   hal::TimePoint committed;
+  hal::Fence fence;  ///< that it waits for
+  Offset offset;     ///< of the framebuffer
 };
 
 struct Framebuffer {
   ScanOutBuffer buffer;
   hal::FrameSize size;
+  bool isGpu = false;
 };
 
 }  // namespace
@@ -88,11 +98,13 @@ class FakeCard final : public Card {
                         .connector = kFirstConnector};
     }
     spec_.firstPixel = [this] { return firstPixelOf(crtcs_.front().framebuffer); };
+    spec_.pixel = [this](int x, int y) { return pixelOf(crtcs_.front().framebuffer, x, y); };
     look();
   }
   ~FakeCard() override {
     assert(framebuffers_.empty() && "a buffer was left behind");
     spec_.firstPixel = nullptr;
+    spec_.pixel = nullptr;
     --cards_.openCards;
   }
   FakeCard(const FakeCard&) = delete;
@@ -132,8 +144,12 @@ class FakeCard final : public Card {
            .isPrimary = i % spec_.planesPerCrtc == 0,
            .crtcs = std::uint32_t{1} << (i / spec_.planesPerCrtc),
            .fourccs = {hal::kXrgb8888},
+           .modifiers = spec_.planeModifiers,
            .properties = properties({"FB_ID", "CRTC_ID", "SRC_X", "SRC_Y", "SRC_W", "SRC_H",
                                      "CRTC_X", "CRTC_Y", "CRTC_W", "CRTC_H", "type"})});
+      if (spec_.waitsForFences) {
+        state.planes.back().properties.push_back({"IN_FENCE_FD", idOf("IN_FENCE_FD"), 0});
+      }
     }
     return state;
   }
@@ -181,6 +197,7 @@ class FakeCard final : public Card {
     if (!isMaster()) return -EACCES;
     runTo(cards_.clock_.now());
     if (kind == Commit::kFlip) return flip(changes);
+    if (kind == Commit::kTestFlip) return testFlip(changes);
     if (isSwitchingOff(changes)) return switchOff(changes.front().object);
     const int failed = modeset(changes, kind == Commit::kModeset);
     ++(kind == Commit::kTest ? cards_.tests : cards_.modesets);
@@ -233,6 +250,43 @@ class FakeCard final : public Card {
     if (buffer.dmaBuf >= 0) ::close(buffer.dmaBuf);
     --cards_.buffers;
   }
+
+  int createGpuBuffer(hal::FrameSize size, std::span<const std::uint64_t> modifiers,
+                      GpuBuffer& buffer) override {
+    if (spec_.gpuModifiers.empty()) return -ENOSYS;
+    cards_.gpuModifiersAsked.assign(modifiers.begin(), modifiers.end());
+    const auto chosen = std::ranges::find_first_of(spec_.gpuModifiers, modifiers);
+    if (chosen == spec_.gpuModifiers.end()) return -EINVAL;
+    ScanOutBuffer memory;
+    if (const int failed = createBuffer(size, memory); failed != 0) return failed;
+    framebuffers_.at(memory.framebuffer).isGpu = true;
+    buffer = {.framebuffer = memory.framebuffer, .modifier = *chosen, .allocation = this};
+    buffer.planes[0] = {
+        .dmaBuf = memory.dmaBuf, .offsetBytes = 0, .strideBytes = memory.strideBytes};
+    --cards_.buffers;
+    ++cards_.gpuBuffers;
+    return 0;
+  }
+  void destroyGpuBuffer(const GpuBuffer& buffer) override {
+    const ScanOutBuffer memory = framebuffers_.at(buffer.framebuffer).buffer;
+    destroyBuffer(memory);
+    ++cards_.buffers;
+    --cards_.gpuBuffers;
+  }
+  int readGpuBuffer(const GpuBuffer& buffer, hal::FrameSize size,
+                    std::span<std::uint8_t> pixels) override {
+    if (spec_.isGone) return -ENODEV;
+    const ScanOutBuffer& memory = framebuffers_.at(buffer.framebuffer).buffer;
+    const std::size_t rowBytes = static_cast<std::size_t>(size.width) * kPixelBytes;
+    for (std::size_t y = 0; y < static_cast<std::size_t>(size.height); ++y) {
+      std::memcpy(pixels.data() + y * rowBytes, memory.memory.data() + y * memory.strideBytes,
+                  rowBytes);
+    }
+    if (spec_.garblesGpuBuffers) pixels[rowBytes / 2] ^= 0x40U;
+    return 0;
+  }
+
+  bool hasVblank(ObjectId) override { return spec_.hasVblank; }
 
   std::optional<hal::display::Vblank> lastVblank(ObjectId crtcId) override {
     const Crtc& crtc = crtcs_.at(crtcId - kFirstCrtc);
@@ -290,7 +344,16 @@ class FakeCard final : public Card {
   /// What is seen of CRTC 0.
   void look() {
     spec_.isOn = crtcs_.front().isActive;
+    spec_.panX = static_cast<int>(crtcs_.front().offset.x >> 16U);
+    spec_.panY = static_cast<int>(crtcs_.front().offset.y >> 16U);
     spec_.showsConsole = spec_.isOn && crtcs_.front().framebuffer == kConsole;
+  }
+
+  int testFlip(std::span<const Change> changes) {
+    ++cards_.tests;
+    const auto framebuffer = framebuffers_.find(static_cast<ObjectId>(changes.front().value));
+    if (framebuffer == framebuffers_.end()) return -EINVAL;
+    return framebuffer->second.isGpu && spec_.refusesGpuTests ? -EINVAL : 0;
   }
 
   int modeset(std::span<const Change> changes, bool applies) {
@@ -312,7 +375,9 @@ class FakeCard final : public Card {
     // The picture fills the display, as most cards demand of a primary plane.
     const auto width = static_cast<std::uint64_t>(mode->size.width);
     const auto height = static_cast<std::uint64_t>(mode->size.height);
-    if (buffer->second.size != mode->size || valueOf(changes, plane, "CRTC_W") != width ||
+    const Offset offset{valueOf(changes, plane, "SRC_X").value_or(0),
+                        valueOf(changes, plane, "SRC_Y").value_or(0)};
+    if (!isWithin(offset, *mode, buffer->second) || valueOf(changes, plane, "CRTC_W") != width ||
         valueOf(changes, plane, "CRTC_H") != height ||
         valueOf(changes, plane, "SRC_W") != width << 16U ||
         valueOf(changes, plane, "SRC_H") != height << 16U) {
@@ -323,8 +388,18 @@ class FakeCard final : public Card {
     crtc = {.isActive = true,
             .mode = *mode,
             .framebuffer = buffer->first,
-            .connector = connector->object};
+            .connector = connector->object,
+            .offset = offset};
+    look();
     return 0;
+  }
+
+  /// Whether a framebuffer has all of what a display of this mode shows at this place of it.
+  static bool isWithin(const Offset& offset, const FakeMode& mode, const Framebuffer& buffer) {
+    const std::uint64_t right = (offset.x >> 16U) + static_cast<std::uint64_t>(mode.size.width);
+    const std::uint64_t bottom = (offset.y >> 16U) + static_cast<std::uint64_t>(mode.size.height);
+    return right <= static_cast<std::uint64_t>(buffer.size.width) &&
+           bottom <= static_cast<std::uint64_t>(buffer.size.height);
   }
 
   static ObjectId planeOf(std::span<const Change> changes) {
@@ -348,8 +423,14 @@ class FakeCard final : public Card {
     Crtc& crtc = crtcs_.at((plane - kFirstPlane) / static_cast<ObjectId>(spec_.planesPerCrtc));
     const auto id = static_cast<ObjectId>(*framebuffer);
     if (!crtc.isActive || !framebuffers_.contains(id)) return -EINVAL;
-    if (framebuffers_.at(id).size != crtc.mode->size) return -EINVAL;
+    Offset offset = crtc.offset;
+    const auto sourceX = valueOf(changes, plane, "SRC_X");
+    const auto sourceY = valueOf(changes, plane, "SRC_Y");
+    if ((sourceX || sourceY) && spec_.refusesPanning) return -EINVAL;
+    offset = {sourceX.value_or(offset.x), sourceY.value_or(offset.y)};
+    if (!isWithin(offset, *crtc.mode, framebuffers_.at(id))) return -EINVAL;
     if (crtc.pending != 0) return -EBUSY;
+    if (framebuffers_.at(id).isGpu && spec_.refusesGpuFlips) return -EINVAL;
     if (std::exchange(spec_.busyFlips, std::max(0, spec_.busyFlips - 1)) > 0) return -EBUSY;
     if (std::exchange(spec_.memorylessFlips, std::max(0, spec_.memorylessFlips - 1)) > 0) {
       return -ENOMEM;
@@ -357,7 +438,15 @@ class FakeCard final : public Card {
     ++cards_.flips;
     cards_.changesOfFlips.push_back(changes.size());
     crtc.pending = id;
+    crtc.offset = offset;
+    look();
     crtc.committed = cards_.clock_.now();
+    crtc.fence = hal::Fence();
+    if (const auto fence = valueOf(changes, plane, "IN_FENCE_FD")) {
+      if (!spec_.waitsForFences) return -EINVAL;
+      crtc.fence = hal::Fence(::dup(static_cast<int>(*fence)));
+      ++cards_.flipsWithFence;
+    }
     if (!spec_.hasVblank) runTo(crtc.committed);
     return 0;
   }
@@ -367,6 +456,10 @@ class FakeCard final : public Card {
     for (std::size_t i = 0; i < crtcs_.size(); ++i) {
       Crtc& crtc = crtcs_[i];
       if (crtc.pending == 0) continue;
+      if (!crtc.fence.hasSignalled()) {
+        crtc.committed = now;
+        continue;
+      }
       const hal::Duration period = hal::fromSeconds(1.0 / crtc.mode->hertz);
       const std::int64_t count = crtc.committed.time_since_epoch() / period + 1;
       const hal::TimePoint refresh =
@@ -391,9 +484,13 @@ class FakeCard final : public Card {
                             .firstPixel = firstPixelOf(crtc.framebuffer)});
   }
 
-  std::uint32_t firstPixelOf(ObjectId framebuffer) const {
+  std::uint32_t firstPixelOf(ObjectId framebuffer) const { return pixelOf(framebuffer, 0, 0); }
+  std::uint32_t pixelOf(ObjectId framebuffer, int x, int y) const {
+    const ScanOutBuffer& buffer = framebuffers_.at(framebuffer).buffer;
+    const std::size_t at = static_cast<std::size_t>(y) * buffer.strideBytes +
+                           static_cast<std::size_t>(x) * kPixelBytes;
     std::uint32_t pixel = 0;
-    std::memcpy(&pixel, framebuffers_.at(framebuffer).buffer.memory.data(), sizeof(pixel));
+    std::memcpy(&pixel, buffer.memory.data() + at, sizeof(pixel));
     return pixel;
   }
 

@@ -40,20 +40,31 @@ struct FakeCardSpec {
   std::size_t rowPadding = 64;
   std::size_t memoryBytes = ~std::size_t{0};  ///< for buffers
   bool hasConsole = true;                     ///< CRTC 0 shows one before
+  /// The layouts that its GPU's buffers can have; empty: it has no GPU.
+  std::vector<std::uint64_t> gpuModifiers;
+  std::vector<std::uint64_t> planeModifiers;  ///< that its planes list; empty: none
+  bool waitsForFences = false;                ///< has IN_FENCE_FD
 
   // To be changed meanwhile:
 
-  bool isGone = false;          ///< unplugged: every call fails
-  bool hasOtherMaster = false;  ///< commits are refused
-  int busyFlips = 0;            ///< so many of the next flips are EBUSY
-  bool losesFlips = false;      ///< flips are taken, but no event comes
-  int memorylessFlips = 0;      ///< so many of the next flips are ENOMEM
+  bool isGone = false;             ///< unplugged: every call fails
+  bool hasOtherMaster = false;     ///< commits are refused
+  int busyFlips = 0;               ///< so many of the next flips are EBUSY
+  bool losesFlips = false;         ///< flips are taken, but no event comes
+  int memorylessFlips = 0;         ///< so many of the next flips are ENOMEM
+  bool refusesGpuTests = false;    ///< TEST_ONLY of a GPU's buffer is EINVAL
+  bool refusesGpuFlips = false;    ///< flips to a GPU's buffer are EINVAL, tests are not
+  bool refusesPanning = false;     ///< flips that change SRC_X or SRC_Y are EINVAL
+  bool garblesGpuBuffers = false;  ///< what is read of one is not what was drawn
 
   // What is seen of CRTC 0:
 
-  bool isOn = false;                          ///< not switched off (ACTIVE)
+  bool isOn = false;  ///< not switched off (ACTIVE)
+  int panX = 0;       ///< the place of its framebuffer that it shows, in px
+  int panY = 0;
   bool showsConsole = false;                  ///< and no picture of ours
   std::function<std::uint32_t()> firstPixel;  ///< of the picture that it has, also while it is off
+  std::function<std::uint32_t(int x, int y)> pixel;  ///< the same, of any of its framebuffer
 };
 
 /// A machine with fake cards, as strict about masters, properties, sizes and pending flips as the
@@ -67,10 +78,10 @@ class FakeCards final : public hal::display::Cards {
 
   std::vector<std::string> nodes() override;
   hal::Result<std::unique_ptr<hal::display::Card>> open(const std::string& node) override;
-  hal::Duration timeOfDay() override { return localTime; }
+  std::optional<hal::Duration> timeOfDay() override { return localTime; }
   hal::Duration timeSuspended() override { return suspended; }
 
-  hal::Duration localTime = std::chrono::hours(12);
+  std::optional<hal::Duration> localTime = std::chrono::hours(12);
   hal::Duration suspended{0};
 
   // What was seen of the cards. Of the only one, or of the card at `node`.
@@ -86,10 +97,13 @@ class FakeCards final : public hal::display::Cards {
   int tests = 0;
   int flips = 0;
   int restores = 0;
-  int switchedOff = 0;                      ///< CRTCs, by ACTIVE
-  std::vector<std::size_t> changesOfFlips;  ///< how many properties each changed
-  int buffers = 0;                          ///< that exist now
-  int blobs = 0;                            ///< that exist now
+  int switchedOff = 0;                           ///< CRTCs, by ACTIVE
+  std::vector<std::size_t> changesOfFlips;       ///< how many properties each changed
+  int buffers = 0;                               ///< that exist now
+  int gpuBuffers = 0;                            ///< that exist now
+  int flipsWithFence = 0;                        ///< that the card waits with
+  std::vector<std::uint64_t> gpuModifiersAsked;  ///< of the last buffer of a GPU
+  int blobs = 0;                                 ///< that exist now
   int openCards = 0;
 
  private:

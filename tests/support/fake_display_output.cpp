@@ -22,6 +22,18 @@ hal::Error lost() {
   return error(hal::ErrorKind::kDeviceLost, "was unplugged");
 }
 
+std::uint64_t brightnessOf(const hal::Surface& surface, const std::uint8_t* memory) {
+  const auto columns = static_cast<std::size_t>(surface.format.size.width);
+  std::uint64_t sum = 0;
+  for (int y = 0; y < surface.format.size.height; ++y) {
+    const std::uint8_t* row = memory + static_cast<std::size_t>(y) * surface.planes[0].strideBytes;
+    for (std::size_t i = 0; i < columns * kPixelBytes; ++i) {
+      if (i % kPixelBytes != 3) sum += row[i];
+    }
+  }
+  return sum;
+}
+
 }  // namespace
 
 FakeDisplayOutput::FakeDisplayOutput(FakeDisplay& display, const hal::Clock& clock)
@@ -188,6 +200,7 @@ void FakeDisplayOutput::end(Queued& queued, hal::PresentationEvent::Result resul
     display_.shown.push_back({.sequence = sequence,
                               .time = time,
                               .firstPixel = pixel,
+                              .brightness = brightnessOf(onScreen_->surface, onScreen_->memory),
                               .size = onScreen_->surface.format.size});
   }
   queued.buffer->state = isShown ? State::kOnScreen : State::kFree;

@@ -30,6 +30,7 @@ struct FakeDisplay {
     std::uint64_t sequence = 0;
     hal::TimePoint time;
     std::uint32_t firstPixel = 0;  ///< its bytes, little-endian
+    std::uint64_t brightness = 0;  ///< the sum of red, green and blue of all pixels
     hal::FrameSize size;
   };
   std::vector<Shown> shown;

@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <stdexcept>
 
+#include <linux/dma-buf.h>
+
 #include "tests/support/fake_v4l2_device.h"
 
 namespace pleinair::support {
@@ -40,6 +42,50 @@ int FakeV4l2::buffers() const {
   const std::scoped_lock lock(mutex_);
   return static_cast<int>(
       std::ranges::count_if(made_, [](const auto& memory) { return !memory.expired(); }));
+}
+
+int FakeV4l2::readsBegun() const {
+  const std::scoped_lock lock(mutex_);
+  return readsBegun_;
+}
+
+int FakeV4l2::readsGoingOn() const {
+  const std::scoped_lock lock(mutex_);
+  return readsBegun_ - readsEnded_;
+}
+
+class FakeV4l2::Allocator final : public hal::FrameAllocator {
+ public:
+  Allocator(FakeV4l2& kernel, int most) : kernel_(kernel), left_(most) {}
+  std::string name() const override { return "fake heap"; }
+  hal::Result<hal::FileDescriptor> allocate(std::size_t bytes) override {
+    if (left_-- <= 0) {
+      return tl::unexpected(hal::errnoError(name(), "cannot allocate memory for frames", ENOMEM));
+    }
+    return hal::FileDescriptor(kernel_.share(bytes), kernel_);
+  }
+
+ private:
+  FakeV4l2& kernel_;
+  int left_;
+};
+
+std::shared_ptr<hal::FrameAllocator> FakeV4l2::allocator(int most) {
+  return std::make_shared<Allocator>(*this, most);
+}
+
+int FakeV4l2::share(std::size_t bytes) {
+  const std::scoped_lock lock(mutex_);
+  dmaBufs_[nextFd_] = std::make_shared<Memory>(bytes);
+  made_.push_back(dmaBufs_[nextFd_]);
+  return nextFd_++;
+}
+
+int FakeV4l2::sync(const void* argument) {
+  const auto flags = static_cast<const dma_buf_sync*>(argument)->flags;
+  if ((flags & DMA_BUF_SYNC_READ) == 0) return -EINVAL;
+  ++((flags & DMA_BUF_SYNC_END) != 0 ? readsEnded_ : readsBegun_);
+  return 0;
 }
 
 int FakeV4l2::opens() const {
@@ -85,12 +131,19 @@ int FakeV4l2::close(int fd) {
 
 int FakeV4l2::ioctl(int fd, unsigned long request, void* argument) {
   const std::scoped_lock lock(mutex_);
+  if (dmaBufs_.contains(fd)) return request == DMA_BUF_IOCTL_SYNC ? sync(argument) : -ENOTTY;
   const auto device = deviceOf(fd);
   return device == nullptr ? -EBADF : device->answer(fd, request, argument);
 }
 
 int FakeV4l2::map(int fd, std::size_t length, std::int64_t offset, void*& address) {
   const std::scoped_lock lock(mutex_);
+  if (const auto shared = dmaBufs_.find(fd); shared != dmaBufs_.end()) {
+    if (offset != 0 || length > shared->second->size()) return -EINVAL;
+    address = shared->second->data();
+    mapped_[address] = {.memory = shared->second, .device = nullptr};
+    return 0;
+  }
   const auto device = deviceOf(fd);
   if (device == nullptr) return -EBADF;
   const auto cookie = static_cast<std::size_t>(offset >> 12);
@@ -109,6 +162,7 @@ int FakeV4l2::unmap(void* address, std::size_t) {
   if (found == mapped_.end()) return -EINVAL;
   const auto device = found->second.device;
   mapped_.erase(found);
+  if (device == nullptr) return 0;
   const bool isOpen = files_.contains(device->owner);
   const bool isMapped =
       std::ranges::any_of(mapped_, [&](const auto& each) { return each.second.device == device; });

@@ -15,6 +15,7 @@
 
 #include "hal/cameras/v4l2/device_nodes.h"
 #include "hal/clock.h"
+#include "hal/frame_allocator.h"
 #include "hal/image.h"
 #include "hal/v4l2/system_calls.h"
 
@@ -64,6 +65,7 @@ struct FakeVideo {
   std::uint32_t mostBuffers = 32;
   std::size_t missingBufferBytes = 0;  ///< how much smaller than needed the buffers are
   bool exportsDmaBufs = true;
+  bool takesLentMemory = true;  ///< V4L2_MEMORY_DMABUF
   /// behaves like an old driver: REQBUFS(0) is EBUSY while a buffer is mapped
   bool keepsMappedBuffers = false;
   std::uint32_t timestampFlags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
@@ -93,6 +95,12 @@ class FakeV4l2 final : public hal::v4l2::SystemCalls {
   int dmaBufs() const;
   int mappings() const;
   int buffers() const;  ///< buffers of drivers whose memory is still in use
+  /// DMA_BUF_IOCTL_SYNC: reads that were begun, and those of them that have not ended.
+  int readsBegun() const;
+  int readsGoingOn() const;
+
+  /// Memory to lend to its devices; after `most` buffers there is no more. This outlives it.
+  std::shared_ptr<hal::FrameAllocator> allocator(int most = 64);
 
   int controlValue(const std::string& node, std::uint32_t id) const;
   int opens() const;
@@ -109,6 +117,7 @@ class FakeV4l2 final : public hal::v4l2::SystemCalls {
   struct Device;
   struct File;
   struct Answerer;
+  class Allocator;
   using Memory = std::vector<std::uint8_t>;
   struct Mapped {
     std::shared_ptr<Memory> memory;
@@ -117,6 +126,8 @@ class FakeV4l2 final : public hal::v4l2::SystemCalls {
 
   std::shared_ptr<Device> deviceOf(int fd) const;
   int pollOne(pollfd& waitFor, const Device& device) const;
+  int share(std::size_t bytes);
+  int sync(const void* argument);
 
   hal::Clock& clock_;
   mutable std::mutex mutex_;
@@ -125,6 +136,7 @@ class FakeV4l2 final : public hal::v4l2::SystemCalls {
   std::map<int, std::shared_ptr<Memory>> dmaBufs_;
   std::map<void*, Mapped> mapped_;
   std::vector<std::weak_ptr<Memory>> made_;
+  int readsBegun_ = 0, readsEnded_ = 0;
   int nextFd_ = 1000;
   int opens_ = 0;
 };

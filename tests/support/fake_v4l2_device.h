@@ -40,6 +40,7 @@ struct FakeV4l2::Device {
   hal::FrameSize size{0, 0};
   v4l2_fract period{1, 25};
   int owner = -1;
+  std::uint32_t memoryKind = V4L2_MEMORY_MMAP;
   std::vector<Buffer> buffers;
   std::deque<std::uint32_t> queued, done;
   bool streaming = false;

@@ -54,7 +54,8 @@ std::vector<std::size_t> FakeV4l2::Device::planeSizes() const {
 }
 
 int FakeV4l2::Device::requestBuffers(int fd, v4l2_requestbuffers& request) {
-  if (request.type != type() || request.memory != V4L2_MEMORY_MMAP) return -EINVAL;
+  const bool isLent = request.memory == V4L2_MEMORY_DMABUF && video.takesLentMemory;
+  if (request.type != type() || (request.memory != V4L2_MEMORY_MMAP && !isLent)) return -EINVAL;
   if (owner >= 0 && owner != fd) return -EBUSY;
   if (streaming && request.count > 0) return -EBUSY;
   const bool isMapped = std::ranges::any_of(
@@ -62,10 +63,15 @@ int FakeV4l2::Device::requestBuffers(int fd, v4l2_requestbuffers& request) {
   if (video.keepsMappedBuffers && isMapped && !buffers.empty()) return -EBUSY;
   halt();
   freeBuffers();
+  memoryKind = request.memory;
   request.count = std::min(request.count, video.mostBuffers);
   for (std::uint32_t i = 0; i < request.count; ++i) {
     Buffer buffer;
     for (const std::size_t bytes : planeSizes()) {
+      if (isLent) {
+        buffer.planes.push_back(nullptr);  // it comes with VIDIOC_QBUF
+        continue;
+      }
       // A little more than needed, because buffers are whole pages.
       const std::size_t room = video.missingBufferBytes > 0
                                    ? bytes - std::min(bytes, video.missingBufferBytes)
@@ -80,7 +86,9 @@ int FakeV4l2::Device::requestBuffers(int fd, v4l2_requestbuffers& request) {
 }
 
 int FakeV4l2::Device::queryBuffer(v4l2_buffer& buffer) const {
-  if (buffer.type != type() || buffer.index >= buffers.size()) return -EINVAL;
+  if (buffer.type != type() || buffer.index >= buffers.size() || memoryKind != V4L2_MEMORY_MMAP) {
+    return -EINVAL;
+  }
   const auto& planes = buffers[buffer.index].planes;
   // Offsets are cookies made of buffer and plane.
   const auto cookie = [&](std::size_t plane) {
@@ -100,18 +108,27 @@ int FakeV4l2::Device::queryBuffer(v4l2_buffer& buffer) const {
 }
 
 int FakeV4l2::Device::queue(v4l2_buffer& buffer) {
-  if (buffer.type != type() || buffer.memory != V4L2_MEMORY_MMAP) return -EINVAL;
+  if (buffer.type != type() || buffer.memory != memoryKind) return -EINVAL;
   if (buffer.index >= buffers.size()) return -EINVAL;
   if (isMultiPlanar() && buffer.length < buffers[buffer.index].planes.size()) return -EINVAL;
   Buffer& own = buffers[buffer.index];
   if (own.state != BufferState::kDequeued) return -EINVAL;
+  if (memoryKind == V4L2_MEMORY_DMABUF) {
+    const std::vector<std::size_t> sizes = planeSizes();
+    for (std::size_t i = 0; i < own.planes.size(); ++i) {
+      const int fd = isMultiPlanar() ? buffer.m.planes[i].m.fd : buffer.m.fd;
+      const auto lent = kernel.dmaBufs_.find(fd);
+      if (lent == kernel.dmaBufs_.end() || lent->second->size() < sizes[i]) return -EINVAL;
+      own.planes[i] = lent->second;
+    }
+  }
   own.state = BufferState::kQueued;
   queued.push_back(buffer.index);
   return 0;
 }
 
 int FakeV4l2::Device::dequeue(v4l2_buffer& buffer) {
-  if (buffer.type != type() || !streaming) return -EINVAL;
+  if (buffer.type != type() || buffer.memory != memoryKind || !streaming) return -EINVAL;
   if (done.empty()) return sourceChanging ? -EPIPE : -EAGAIN;
   const std::uint32_t index = done.front();
   done.pop_front();
@@ -135,7 +152,7 @@ int FakeV4l2::Device::dequeue(v4l2_buffer& buffer) {
 }
 
 int FakeV4l2::Device::exportBuffer(v4l2_exportbuffer& request) {
-  if (!video.exportsDmaBufs) return -ENOTTY;
+  if (!video.exportsDmaBufs || memoryKind != V4L2_MEMORY_MMAP) return -ENOTTY;
   if (request.index >= buffers.size() || request.plane >= buffers[request.index].planes.size()) {
     return -EINVAL;
   }

@@ -6,16 +6,21 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <unistd.h>
+
 #include "hal/camera_backend.h"
+#include "hal/file_descriptor.h"
 #include "hal/supervisor/camera_selector.h"
 #include "hal/supervisor/camera_supervisor.h"
 #include "pipeline/runtime/live_pipeline.h"
+#include "tests/support/drawn_surface.h"
 
 namespace pleinair::support {
 
@@ -117,6 +122,14 @@ struct SimulatedGpu {
   int made = 0;
   std::optional<hal::TimePoint> nextReady;
   bool isLost = false;
+
+  // Of painting straight into surfaces; the pixels of a frame are kDrawn + its sequence number.
+
+  static constexpr std::uint32_t kDrawn = 0x00500000;
+  std::vector<std::uint64_t> drawable;    ///< layouts; empty: it only reads back
+  std::optional<hal::Error> importError;  ///< of every import
+  bool drawsWrong = false;                ///< a pixel of what it draws into surfaces is another
+  int imports = 0;
 };
 
 /// Paints one frame after another.
@@ -139,7 +152,7 @@ class SimulatedPainter final : public runtime::FramePainter {
     if (gpu_.isLostAt(frame.sequence)) gpu_.isLost = true;
     if (gpu_.isLost) return tl::unexpected(lost());
     busyUntil_ = std::max(busyUntil_, clock_.now()) + gpu_.cost(frame.sequence, quality);
-    work_.push_back({frame.sequence, frame.captureTime, busyUntil_});
+    work_.push_back({frame.sequence, frame.captureTime, busyUntil_, std::exchange(next_, {})});
     tellNext();
     return {};
   }
@@ -148,11 +161,12 @@ class SimulatedPainter final : public runtime::FramePainter {
     if (gpu_.isLost) return tl::unexpected(lost());
     const std::size_t index = taken_.at(output).value() - done_;
     if (index >= work_.size() || work_.at(index).ready > clock_.now()) return false;
+    picture.sequence = work_.at(index).sequence;
+    picture.captureTime = work_.at(index).captured;
+    picture.surface = drawIfWanted(work_.at(index), output);
     const hal::FrameFormat& format = formats_.at(output).frame;
     if (picture.image.format() != format) picture.image = hal::Image(format);
     std::ranges::fill(picture.image.plane(0), std::uint8_t{0});  // painted black
-    picture.sequence = work_.at(index).sequence;
-    picture.captureTime = work_.at(index).captured;
     ++*taken_.at(output);
     forgetTaken();
     return true;
@@ -166,15 +180,59 @@ class SimulatedPainter final : public runtime::FramePainter {
   }
   void close(std::size_t output) override {
     taken_.at(output).reset();
+    loans_.erase(output);
     forgetTaken();
   }
 
+  runtime::DrawableLayouts drawable() override { return {gpu_.drawable, "draws nowhere else"}; }
+  hal::Result<void> importLoan(std::size_t output, const runtime::SurfaceLoan& loan) override {
+    ++gpu_.imports;
+    if (gpu_.isLost) return tl::unexpected(lost());
+    if (gpu_.importError) return tl::unexpected(*gpu_.importError);
+    Loan& mine = loans_[output];
+    mine = {.number = loan.number, .surfaces = loan.surfaces, .descriptors = {}};
+    for (hal::GpuSurface& each : mine.surfaces) {
+      hal::SurfacePlane& plane = each.surface.planes[0];
+      plane.dmaBuf = ::dup(plane.dmaBuf);
+      mine.descriptors.emplace_back(plane.dmaBuf);
+      drawPatternInto(each);
+      if (!gpu_.drawsWrong) continue;
+      drawInto(each, [](int x, int) { return static_cast<std::uint32_t>(x); });
+    }
+    return {};
+  }
+  void drawNextInto(std::size_t output, const hal::LentSurface& surface) override {
+    next_[output] = surface;
+  }
+
  private:
+  using Into = std::map<std::size_t, hal::LentSurface>;  ///< by output
   struct Work {
     std::uint64_t sequence;
     hal::TimePoint captured;
     hal::TimePoint ready;
+    Into into;
   };
+  struct Loan {
+    std::uint64_t number = 0;
+    std::vector<hal::GpuSurface> surfaces;
+    std::vector<hal::FileDescriptor> descriptors;
+  };
+  std::optional<hal::LentSurface> drawIfWanted(const Work& work, std::size_t output) {
+    const auto into = work.into.find(output);
+    if (into == work.into.end()) return std::nullopt;
+    const Loan& loan = loans_.at(output);
+    assert(loan.number == into->second.loan);
+    for (const hal::GpuSurface& each : loan.surfaces) {
+      if (each.surface.id != into->second.id) continue;
+      drawInto(each, [&](int, int) {
+        return SimulatedGpu::kDrawn + static_cast<std::uint32_t>(work.sequence);
+      });
+      return into->second;
+    }
+    assert(false);
+    return std::nullopt;
+  }
   static hal::Error lost() {
     return {.kind = hal::ErrorKind::kDeviceLost, .subject = "GPU", .problem = "was lost"};
   }
@@ -194,6 +252,8 @@ class SimulatedPainter final : public runtime::FramePainter {
   std::vector<hal::OutputFormat> formats_;
   hal::Clock& clock_;
   hal::TimePoint busyUntil_;
+  Into next_;
+  std::map<std::size_t, Loan> loans_;
   std::deque<Work> work_;
   std::size_t done_ = 0;
   std::vector<std::optional<std::size_t>> taken_;  ///< of each output; none of closed ones

@@ -38,7 +38,7 @@ class PassThroughPainter final : public runtime::FramePainter {
       picture.image = hal::Image(frame.image);
     } else {
       for (int y = 0; y < picture.image.size().height; ++y) {
-        std::ranges::copy(frame.image.row(0, y), picture.image.row(0, y).begin());
+        std::ranges::copy(frame.image.map().view().row(0, y), picture.image.row(0, y).begin());
       }
     }
     picture.sequence = frame.sequence;

@@ -167,8 +167,9 @@ class ScriptedCamera final : public hal::Camera {
                              .lease = image};
     frame.health = scripted.health;
     if (scripted.isTooShort) {
-      std::span<const std::uint8_t>& bytes = frame.image.planes[0].bytes;
-      bytes = bytes.first(bytes.size() - 1);
+      hal::ImageView cut = image->view();
+      cut.planes[0].bytes = cut.planes[0].bytes.first(cut.planes[0].bytes.size() - 1);
+      frame.image = cut;
     }
     return frame;
   }
@@ -200,9 +201,11 @@ class ScriptedBackend final : public hal::CameraBackend {
     return device;
   }
   void failListing(hal::Error error) { listError_ = std::move(error); }
+  int lists = 0;  ///< calls of list()
 
   std::string_view name() const override { return name_; }
   hal::Result<std::vector<hal::CameraDescription>> list() override {
+    ++lists;
     if (listError_) return tl::unexpected(*listError_);
     std::vector<hal::CameraDescription> descriptions;
     for (const auto& device : devices_) descriptions.push_back(device->description);

@@ -318,11 +318,26 @@ Violations precisionRule(const ShaderText& shader) {
   return violations;
 }
 
+Violations texturesRule(const ShaderText& shader) {
+  constexpr long kMaxTextures = 16;
+  const long textures =
+      count(statements(shader.expanded), "\\buniform\\b[^;(){}]*\\b[iu]?sampler\\w+");
+  if (stageOf(shader) == Stage::kIncluded || textures <= kMaxTextures) return {};
+  return {std::to_string(textures) + " textures; 16 are on every target"};
+}
+
+Violations loopBoundsRule(const ShaderText& shader) {
+  return forbid(statements(shader.expanded),
+                "\\bfor\\s*\\([^;]*;[^;]*<=?\\s*(?:k[A-Z]\\w*|\\d+);[^)]*\\)\\s*\\{\\s*"
+                "if\\s*\\([^)]*\\)\\s*break\\b",
+                "compilers unroll a constant bound; use the count itself (rule 19)");
+}
+
 Violations shaderRules(const ShaderText& shader) {
   Violations violations;
-  for (const auto rule :
-       {headCommentRule, languageRule, graphicsStageRule, outputsRule, computeLimitsRule,
-        sharedMemoryRule, imageFormatsRule, atomicOrderRule, precisionRule}) {
+  for (const auto rule : {headCommentRule, languageRule, graphicsStageRule, outputsRule,
+                          computeLimitsRule, sharedMemoryRule, imageFormatsRule, atomicOrderRule,
+                          precisionRule, texturesRule, loopBoundsRule}) {
     try {
       append(violations, rule(shader));
     } catch (const std::invalid_argument& unreadable) {

@@ -39,6 +39,10 @@ Violations imageFormatsRule(const ShaderText& shader);
 Violations atomicOrderRule(const ShaderText& shader);
 /// mediump on colours only, lowp on nothing (rule 8).
 Violations precisionRule(const ShaderText& shader);
+/// At most 16 textures in a stage: Adreno has no more (docs/gpu.md, "Limits of the drivers").
+Violations texturesRule(const ShaderText& shader);
+/// No loop with a constant bound that a break cuts short (rule 19).
+Violations loopBoundsRule(const ShaderText& shader);
 
 /// All rules above.
 Violations shaderRules(const ShaderText& shader);

@@ -1,5 +1,6 @@
 #include "hal/cameras/recording/frame_source.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <optional>
@@ -37,7 +38,10 @@ Result<RecordingKind> kindOf(const std::filesystem::path& path) {
   }
   const auto kind = libav::pictureKindOf(std::span(head).first(static_cast<std::size_t>(got)));
   // Motion-JPEG is a movie although it begins as a JPEG picture does.
-  const std::string ending = path.extension().string();
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
   const bool isJpegStream = ending == ".mjpeg" || ending == ".mjpg";
   return kind && !isJpegStream ? RecordingKind::kPicture : RecordingKind::kMovie;
 }

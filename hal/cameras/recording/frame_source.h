@@ -4,20 +4,24 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
 #include "hal/cameras/recording/recording.h"
+#include "hal/captures/frame_facts.h"
 #include "hal/clock.h"
 #include "hal/error.h"
 #include "hal/media/handles.h"
+#include "hal/pixel_format.h"
 
 namespace pleinair::hal::recording {
 
 struct SourceFrame {
-  std::shared_ptr<const AVFrame> frame;  ///< as stored, with its display matrix
-  std::optional<Duration> time;          ///< the file's timestamp, with an arbitrary origin
-  std::uint64_t droppedBefore = 0;       ///< broken frames skipped since the previous one
+  std::shared_ptr<const AVFrame> frame;       ///< as stored, with its display matrix
+  std::optional<Duration> time;               ///< the file's timestamp, with an arbitrary origin
+  std::uint64_t droppedBefore = 0;            ///< broken frames skipped since the previous one
+  std::optional<captures::FrameFacts> facts;  ///< of a captured stream (hal/captures)
 };
 struct SourceEnd {
   std::optional<Error> truncated;  ///< the reason, if the source ended early
@@ -30,6 +34,10 @@ class FrameSource {
   virtual ~FrameSource() = default;
   virtual std::optional<Duration> framePeriod() const = 0;
   virtual std::optional<std::uint64_t> frameCount() const = 0;
+  /// The camera's layout of a captured stream (hal/captures), whose pixels it was stored from.
+  virtual std::optional<PixelFormat> capturedLayout() const { return std::nullopt; }
+  /// The camera that a captured stream is of: "v4l2:ID (HD Webcam)". Else empty.
+  virtual std::string capturedFrom() const { return {}; }
   /// After SourceEnd or Error it must not be called again.
   virtual SourceItem next() = 0;
 };

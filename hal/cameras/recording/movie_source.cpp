@@ -1,12 +1,19 @@
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <chrono>
+#include <iterator>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "hal/cameras/recording/container_scan.h"
 #include "hal/cameras/recording/frame_source.h"
+#include "hal/captures/capture_tags.h"
+#include "hal/captures/frame_facts.h"
+#include "hal/captures/stored_pixels.h"
+#include "hal/media/demuxing.h"
 #include "hal/media/errors.h"
 #include "hal/media/file_input.h"
 #include "hal/media/picture_decoder.h"
@@ -50,26 +57,11 @@ bool isOneOf(const char* formatNames, std::string_view name) {
   return av_match_name(std::string(name).c_str(), formatNames) != 0;
 }
 
-int refuseToOpen(AVFormatContext*, AVIOContext**, const char*, int, AVDictionary**) {
-  return AVERROR(EPERM);
-}
-
-/// Ends the opening of a file in which libav keeps searching for streams.
-class OpeningDeadline {
- public:
-  static int hasPassed(void* opaque) {
-    return std::chrono::steady_clock::now() > static_cast<OpeningDeadline*>(opaque)->until_ ? 1 : 0;
-  }
-
- private:
-  std::chrono::steady_clock::time_point until_ =
-      std::chrono::steady_clock::now() + std::chrono::seconds(10);
-};
-
 struct DemuxedFile {
   libav::DemuxerIo io;
   libav::InputContext context;
   AVStream* stream = nullptr;  ///< owned by the context
+  AVStream* facts = nullptr;   ///< the same; of a captured stream only
   std::string complaint;       ///< libav's first error line while it opened a file successfully
 };
 
@@ -85,12 +77,7 @@ Result<void> openContainer(DemuxedFile& file, const std::string& subject) {
   if (isPlaylist) {
     return tl::unexpected(broken(subject, "is a playlist or a text, not a movie"));
   }
-  AVFormatContext* context = avformat_alloc_context();
-  if (context == nullptr) throw std::bad_alloc();
-  context->pb = file.io.context();
-  context->io_open = &refuseToOpen;
-  context->protocol_whitelist = av_strdup("none");
-  context->max_streams = 64;
+  AVFormatContext* context = libav::makeDemuxer(file.io.context());
   status = avformat_open_input(&context, "", format, nullptr);  // frees the context on failure
   if (status < 0) {
     return tl::unexpected(broken(subject, "is a broken movie", status, log));
@@ -118,16 +105,7 @@ Result<void> checkSizes(const DemuxedFile& file, const std::string& subject) {
 
 Result<void> findStreams(DemuxedFile& file, const std::string& subject) {
   const libav::LogCapture log;
-  AVFormatContext& context = *file.context;
-  OpeningDeadline deadline;
-  context.interrupt_callback = {&OpeningDeadline::hasPassed, &deadline};
-  std::vector<libav::Dictionary> owners(context.nb_streams);
-  std::vector<AVDictionary*> options(context.nb_streams);
-  for (AVDictionary*& option : options) av_dict_set_int(&option, "max_pixels", kMaxPixels, 0);
-  const int status =
-      avformat_find_stream_info(&context, options.empty() ? nullptr : options.data());
-  for (std::size_t i = 0; i < owners.size(); ++i) owners[i].reset(options[i]);
-  context.interrupt_callback = {nullptr, nullptr};
+  const int status = libav::findStreamInfo(*file.context);
   if (status < 0) return tl::unexpected(broken(subject, "is a broken movie", status, log));
   return checkSizes(file, subject);
 }
@@ -154,6 +132,21 @@ Result<libav::CodecContext> openDecoder(const AVStream& stream, const std::strin
   return decoder;
 }
 
+std::string tagOf(const AVStream& stream, const char* name) {
+  const AVDictionaryEntry* entry = av_dict_get(stream.metadata, name, nullptr, 0);
+  return entry == nullptr ? std::string() : std::string(entry->value);
+}
+
+/// The track of facts of a captured stream; null in other movies.
+AVStream* findFacts(const AVFormatContext& context, const AVStream& video) {
+  if (!captures::pixelFormatNamed(tagOf(video, captures::kLayoutTag))) return nullptr;
+  for (unsigned i = 0; i < context.nb_streams; ++i) {
+    AVStream* const stream = context.streams[i];
+    if (stream->codecpar->codec_id == AV_CODEC_ID_SUBRIP) return stream;
+  }
+  return nullptr;
+}
+
 class MovieSource final : public FrameSource {
  public:
   MovieSource(std::string subject, DemuxedFile file, libav::CodecContext decoder,
@@ -166,6 +159,7 @@ class MovieSource final : public FrameSource {
   }
 
   std::optional<Duration> framePeriod() const override {
+    if (isCapture()) return capturedPeriod();
     const AVRational rate = file_.stream->avg_frame_rate;
     if (rate.num <= 0 || rate.den <= 0) return std::nullopt;
     const Duration period(av_rescale_q(1, av_inv_q(rate), {1, 1'000'000'000}));
@@ -183,9 +177,18 @@ class MovieSource final : public FrameSource {
     return total > 0 ? std::optional(total) : std::nullopt;
   }
 
+  std::optional<PixelFormat> capturedLayout() const override {
+    return isCapture() ? captures::pixelFormatNamed(tag(captures::kLayoutTag)) : std::nullopt;
+  }
+  std::string capturedFrom() const override { return tag(captures::kCameraTag); }
+
   SourceItem next() override;
 
  private:
+  bool isCapture() const { return file_.facts != nullptr; }
+  std::string tag(const char* name) const { return tagOf(*file_.stream, name); }
+  std::optional<Duration> capturedPeriod() const;
+  void noteFacts(const AVPacket& packet);
   bool isMp4() const { return isOneOf(file_.context->iformat->name, "mp4"); }
   bool isY4m() const { return isOneOf(file_.context->iformat->name, "yuv4mpegpipe"); }
   bool isMatroska() const { return isOneOf(file_.context->iformat->name, "matroska"); }
@@ -219,7 +222,26 @@ class MovieSource final : public FrameSource {
   std::int64_t packetsRead_ = 0;
   std::int64_t lastPacketEnd_ = 0;
   std::optional<Error> truncated_;
+  std::map<std::int64_t, captures::FrameFacts> facts_;  ///< of frames to come, by their time
 };
+
+std::optional<Duration> MovieSource::capturedPeriod() const {
+  const std::string text = tag(captures::kPeriodTag);
+  std::int64_t period = 0;
+  std::from_chars(text.data(), text.data() + text.size(), period);
+  // As RecordingOptions::picturePeriod, between a microsecond and an hour.
+  const bool isPlausible = period >= 1000 && period <= 3'600'000'000'000;
+  return isPlausible ? std::optional(Duration(period)) : std::nullopt;
+}
+
+/// They come before their frame.
+void MovieSource::noteFacts(const AVPacket& packet) {
+  constexpr std::size_t kMost = 64;  // of damaged files, whose frames are missing
+  if (facts_.size() >= kMost) facts_.erase(facts_.begin());
+  const std::string_view text(reinterpret_cast<const char*>(packet.data),
+                              static_cast<std::size_t>(std::max(packet.size, 0)));
+  if (const auto facts = captures::parseFacts(text)) facts_[packet.pts] = *facts;
+}
 
 bool MovieSource::isSound(const AVFrame& frame) const {
   const bool broken = (frame.flags & AV_FRAME_FLAG_CORRUPT) != 0 || frame.decode_error_flags != 0;
@@ -229,15 +251,9 @@ bool MovieSource::isSound(const AVFrame& frame) const {
 
 /// Seeks to the key frame before the part's beginning; the frames between are decoded and dropped.
 void MovieSource::limitTo(const RecordingOptions& options) {
-  const std::int64_t start =
-      file_.stream->start_time == AV_NOPTS_VALUE ? 0 : file_.stream->start_time;
-  // Rounded to nearest, so that a time that ffprobe prints finds its frame.
-  const auto inStream = [&](Duration time) {
-    return start + av_rescale_q(time.count(), {1, 1'000'000'000}, file_.stream->time_base);
-  };
-  if (options.to) to_ = inStream(*options.to);
+  if (options.to) to_ = libav::timeInStream(*file_.stream, *options.to);
   if (options.from <= Duration::zero()) return;
-  from_ = inStream(options.from);
+  from_ = libav::timeInStream(*file_.stream, options.from);
   // Where that fails, all frames from the beginning on are decoded.
   av_seek_frame(file_.context.get(), file_.stream->index, *from_, AVSEEK_FLAG_BACKWARD);
 }
@@ -262,6 +278,11 @@ SourceFrame MovieSource::deliver(libav::Frame frame) {
     const std::int64_t time =
         av_rescale_q(frame->best_effort_timestamp, file_.stream->time_base, {1, 1'000'000'000});
     item.time = Duration(time);
+  }
+  if (const auto facts = facts_.find(frame->best_effort_timestamp); facts != facts_.end()) {
+    item.facts = facts->second;
+    item.time = facts->second.time;
+    facts_.erase(facts_.begin(), std::next(facts));
   }
   tagWithOrientation(*frame);
   frame->sample_aspect_ratio =
@@ -307,6 +328,7 @@ void MovieSource::feed() {
   const libav::LogCapture log;
   const int status = av_read_frame(file_.context.get(), packet_.get());
   if (status < 0) return reachEnd(status, log);
+  if (isCapture() && packet_->stream_index == file_.facts->index) noteFacts(*packet_);
   if (packet_->stream_index == file_.stream->index) {
     ++packetsRead_;
     lastPacketEnd_ = packet_->pos + packet_->size;
@@ -371,10 +393,12 @@ Result<std::unique_ptr<FrameSource>> openMovie(const std::filesystem::path& path
   if (index < 0 || (file.context->streams[index]->disposition & AV_DISPOSITION_ATTACHED_PIC) != 0) {
     return tl::unexpected(broken(subject, "holds no video"));
   }
-  for (unsigned i = 0; i < file.context->nb_streams; ++i) {
-    if (static_cast<int>(i) != index) file.context->streams[i]->discard = AVDISCARD_ALL;
-  }
   file.stream = file.context->streams[index];
+  file.facts = findFacts(*file.context, *file.stream);
+  for (unsigned i = 0; i < file.context->nb_streams; ++i) {
+    AVStream* const stream = file.context->streams[i];
+    if (stream != file.stream && stream != file.facts) stream->discard = AVDISCARD_ALL;
+  }
   Result<libav::CodecContext> decoder = openDecoder(*file.stream, subject);
   if (!decoder) return tl::unexpected(decoder.error());
   return std::make_unique<MovieSource>(subject, std::move(file), *std::move(decoder), options);

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -5,6 +7,8 @@
 #include "hal/cameras/recording/frame_source.h"
 #include "hal/cameras/recording/recording.h"
 #include "hal/cameras/recording/timeline.h"
+#include "hal/captures/stored_pixels.h"
+#include "hal/image.h"
 #include "hal/media/frame_pixels.h"
 #include "hal/paced_frame.h"
 
@@ -17,6 +21,9 @@ using recording::SourceFrame;
 using recording::SourceItem;
 using recording::Timeline;
 
+/// More frames than a camera makes in a year are no loss, but a damaged recording.
+constexpr std::uint64_t kMostDropped = 10'000'000'000;
+
 class RecordingCamera final : public Camera {
  public:
   RecordingCamera(std::filesystem::path path, Clock& clock, RecordingOptions options)
@@ -26,8 +33,10 @@ class RecordingCamera final : public Camera {
         timeline_(Duration{}) {}
 
   CameraIdentity identity() const override {
-    return {
-        .backend = "recording", .id = path_.string(), .description = "recording " + path_.string()};
+    const std::string what = capturedFrom_.empty() ? "" : " of " + capturedFrom_;
+    return {.backend = "recording",
+            .id = path_.string(),
+            .description = "recording " + path_.string() + what};
   }
 
   Result<StreamFormat> start(const StreamRequest& request) override;
@@ -40,6 +49,7 @@ class RecordingCamera final : public Camera {
   void fetch();
   void endWith(NextFrame ending) { ending_ = std::move(ending); }
   void handleEnd(const SourceEnd& end);
+  Result<libav::LentPicture> pictureOf(const SourceFrame& item) const;
   void accept(const SourceFrame& item);
   Error named(Error error) const;
 
@@ -48,6 +58,7 @@ class RecordingCamera final : public Camera {
   RecordingOptions options_;
 
   std::unique_ptr<FrameSource> source_;
+  std::string capturedFrom_;  ///< the camera, in a captured stream
   StreamFormat format_;
   Timeline timeline_;
   TimePoint startTime_;
@@ -66,6 +77,7 @@ Result<void> RecordingCamera::open() {
   auto source = recording::openSource(path_, options_);
   if (!source) return tl::unexpected(source.error());
   source_ = *std::move(source);
+  capturedFrom_ = source_->capturedFrom();
   anyFrameInThisPass_ = false;
   return {};
 }
@@ -105,17 +117,34 @@ void RecordingCamera::stop() {
   source_.reset();
 }
 
+Result<libav::LentPicture> RecordingCamera::pictureOf(const SourceFrame& item) const {
+  if (const auto layout = source_->capturedLayout()) {
+    if (std::optional<Image> image = captures::restored(*item.frame, *layout)) {
+      const auto shared = std::make_shared<const Image>(*std::move(image));
+      return libav::LentPicture{.view = shared->view(), .lease = shared};
+    }
+  }
+  return libav::lendPicture(item.frame);
+}
+
 void RecordingCamera::accept(const SourceFrame& item) {
-  Result<libav::LentPicture> picture = libav::lendPicture(item.frame);
+  Result<libav::LentPicture> picture = pictureOf(item);
   if (!picture) return endWith(named(picture.error()));
-  nextSequence_ += item.droppedBefore;
+  const captures::FrameFacts facts = item.facts.value_or(captures::FrameFacts{});
+  // What the camera lost, and what the recording has lost since.
+  const std::uint64_t dropped = std::min(facts.droppedBefore, kMostDropped) + item.droppedBefore;
+  nextSequence_ += dropped;
   pending_ =
       CapturedFrame{.image = picture->view,
                     .dmaBufs = {},
                     .sequence = nextSequence_++,
-                    .droppedBefore = item.droppedBefore,
+                    .droppedBefore = dropped,
+                    .underrunsBefore = std::min(facts.underrunsBefore, dropped),
+                    .linkBefore = facts.linkBefore,
                     .captureTime = startTime_ + timeline_.place(item.time, item.droppedBefore),
                     .timestampSource = TimestampSource::kRecording,
+                    .deviceTime = facts.deviceTime,
+                    .health = facts.health,
                     .lease = std::move(picture->lease)};
   anyFrameInThisPass_ = true;
 }

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "hal/camera.h"
-#include "hal/cameras/synthetic/frame_pool.h"
 #include "hal/cameras/synthetic/ground_truth.h"
 #include "hal/cameras/synthetic/render/exposure.h"
 #include "hal/cameras/synthetic/render/motion.h"
@@ -12,6 +11,7 @@
 #include "hal/cameras/synthetic/render/sensor.h"
 #include "hal/cameras/synthetic/render/shot.h"
 #include "hal/clock.h"
+#include "hal/frame_pool.h"
 
 namespace pleinair::hal {
 
@@ -76,7 +76,7 @@ class SyntheticCamera final : public Camera {
   synthetic::Motion motion_;
   synthetic::SmoothNoise brightness_, balance_;
   synthetic::Sensor sensor_;
-  synthetic::FramePool pool_;
+  FramePool pool_;
   std::optional<synthetic::Renderer> renderer_;
   std::optional<synthetic::Renderer> spotlitRenderer_;  ///< of kLights, while the spotlight is on
 

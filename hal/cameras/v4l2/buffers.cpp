@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <linux/dma-buf.h>
 #include <linux/videodev2.h>
 
 namespace pleinair::hal::v4l2 {
@@ -70,7 +71,7 @@ Result<Buffer> mapBuffer(const Device& device, std::uint32_t index,
   if (const int answer = queryBuffer(device, index, neededBytes.size(), facts); answer < 0) {
     return tl::unexpected(device.failure("cannot query its buffers", answer));
   }
-  Buffer buffer;
+  Buffer buffer(device.calls());
   for (std::size_t plane = 0; plane < neededBytes.size(); ++plane) {
     const PlaneFacts& fact = facts.at(plane);
     if (fact.length < neededBytes[plane] || fact.length == 0) {
@@ -88,35 +89,90 @@ Result<Buffer> mapBuffer(const Device& device, std::uint32_t index,
   return buffer;
 }
 
-int requestBuffers(const Device& device, std::uint32_t& count) {
+/// Maps memory of the allocator's, of these sizes.
+Result<Buffer> borrowBuffer(const Device& device, FrameAllocator& allocator,
+                            const std::vector<std::size_t>& bytes) {
+  Buffer buffer(device.calls());
+  buffer.isLent = true;
+  for (const std::size_t each : bytes) {
+    Result<FileDescriptor> dmaBuf = allocator.allocate(each);
+    if (!dmaBuf) return tl::unexpected(std::move(dmaBuf.error()));
+    void* address = nullptr;
+    if (const int answer = device.calls().map(dmaBuf->get(), each, 0, address); answer < 0) {
+      return tl::unexpected(
+          device.failure("cannot map memory of " + allocator.name() + " for its frames", answer));
+    }
+    buffer.planes.push_back(
+        {.mapping = Mapping(device.calls(), address, each), .dmaBuf = *std::move(dmaBuf)});
+  }
+  return buffer;
+}
+
+/// Begins or ends reading of each dma-buf.
+void sync(const Buffer& buffer, std::uint64_t flag) {
+  for (const BufferPlane& plane : buffer.planes) {
+    dma_buf_sync request{.flags = DMA_BUF_SYNC_READ | flag};
+    // A dma-buf without the call is coherent.
+    buffer.systemCalls->ioctl(plane.dmaBuf.get(), DMA_BUF_IOCTL_SYNC, &request);
+  }
+}
+
+int requestBuffers(const Device& device, std::uint32_t memory, std::uint32_t& count) {
   v4l2_requestbuffers request{};
   request.type = device.bufferType();
-  request.memory = V4L2_MEMORY_MMAP;
+  request.memory = memory;
   request.count = count;
   const int answer = device.ask(VIDIOC_REQBUFS, request);
   count = request.count;
   return answer;
 }
 
+Error tooFew(const Device& device, std::uint32_t count) {
+  return {.kind = ErrorKind::kUnsupported,
+          .subject = device.node(),
+          .problem = "gives only " + std::to_string(count) + " buffer" + (count == 1 ? "" : "s") +
+                     ", at least " + std::to_string(kFewestBuffers) + " are needed",
+          .remedy = "ask for a smaller size (camera.size), or free memory"};
+}
+
 }  // namespace
+
+void Buffer::beginRead() const {
+  sync(*this, DMA_BUF_SYNC_START);
+}
+
+void Buffer::endRead() const {
+  sync(*this, DMA_BUF_SYNC_END);
+}
 
 Result<BufferSet> BufferSet::allocate(const Device& device,
                                       const std::vector<std::size_t>& neededBytes) {
   std::uint32_t count = kWantedBuffers;
-  if (const int answer = requestBuffers(device, count); answer < 0) {
+  if (const int answer = requestBuffers(device, V4L2_MEMORY_MMAP, count); answer < 0) {
     return tl::unexpected(device.failure("cannot allocate its buffers", answer));
   }
-  BufferSet set(device);  // frees its buffers on each return path
-  if (count < kFewestBuffers) {
-    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
-                                .subject = device.node(),
-                                .problem = "gives only " + std::to_string(count) + " buffer" +
-                                           (count == 1 ? "" : "s") + ", at least " +
-                                           std::to_string(kFewestBuffers) + " are needed",
-                                .remedy = "ask for a smaller size (camera.size), or free memory"});
-  }
+  BufferSet set(device, V4L2_MEMORY_MMAP);  // frees its buffers on each return path
+  if (count < kFewestBuffers) return tl::unexpected(tooFew(device, count));
   for (std::uint32_t index = 0; index < count; ++index) {
     Result<Buffer> buffer = mapBuffer(device, index, neededBytes);
+    if (!buffer) return tl::unexpected(std::move(buffer.error()));
+    set.buffers_.push_back(std::make_shared<const Buffer>(*std::move(buffer)));
+  }
+  return set;
+}
+
+Result<BufferSet> BufferSet::borrow(const Device& device, FrameAllocator& allocator,
+                                    const std::vector<std::size_t>& bytes) {
+  std::uint32_t count = kWantedBuffers;
+  if (const int answer = requestBuffers(device, V4L2_MEMORY_DMABUF, count); answer < 0) {
+    Error error = device.failure("takes no memory of others for its frames", answer);
+    if (answer == -EINVAL) error.kind = ErrorKind::kUnsupported;
+    return tl::unexpected(std::move(error));
+  }
+  BufferSet set(device, V4L2_MEMORY_DMABUF);
+  if (count < kFewestBuffers) return tl::unexpected(tooFew(device, count));
+  for (std::uint32_t index = 0; index < count; ++index) {
+    Result<Buffer> buffer = borrowBuffer(device, allocator, bytes);
     if (!buffer) return tl::unexpected(std::move(buffer.error()));
     set.buffers_.push_back(std::make_shared<const Buffer>(*std::move(buffer)));
   }
@@ -129,7 +185,7 @@ BufferSet::~BufferSet() {
   // Leased buffers become orphans. A driver without that feature answers EBUSY and keeps them until
   // the last lease has been dropped.
   std::uint32_t none = 0;
-  requestBuffers(*device_, none);
+  requestBuffers(*device_, memory_, none);
 }
 
 }  // namespace pleinair::hal::v4l2

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include <linux/videodev2.h>
+
 #include "hal/cameras/v4l2/device.h"
 #include "hal/cameras/v4l2/modes.h"
 #include "hal/v4l2/capability.h"
@@ -136,6 +138,8 @@ class Listing {
     const std::string node = "/dev/" + name;
     const Result<Device> device = Device::open(system_.calls, node);
     if (!device && device.error().kind == ErrorKind::kUnsupported) return std::nullopt;
+    // One end of a pipeline that the media controller sets up: libcamera has its sensors.
+    if (device && device->capability().has(V4L2_CAP_IO_MC)) return std::nullopt;
     CameraDescription camera{.identity = {.backend = "v4l2"},
                              .serial = serialOf(name),
                              .path = byPathName(system_.nodes, name),

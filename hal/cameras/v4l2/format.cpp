@@ -24,7 +24,8 @@ struct PlainFormat {
   std::uint32_t field = 0;
   std::array<std::size_t, 3> strides{};
   int memoryPlanes = 1;
-  std::uint32_t colorspace = 0, encoding = 0, quantization = 0;
+  std::array<std::size_t, 3> imageBytes{};  ///< of each memory plane
+  std::uint32_t colorspace = 0, encoding = 0, quantization = 0, transfer = 0;
 };
 
 PlainFormat plain(const v4l2_format& format, bool isMultiPlanar) {
@@ -38,9 +39,11 @@ PlainFormat plain(const v4l2_format& format, bool isMultiPlanar) {
              .field = pix.field,
              .strides = {pix.bytesperline, 0, 0},
              .memoryPlanes = 1,
+             .imageBytes = {pix.sizeimage, 0, 0},
              .colorspace = pix.colorspace,
              .encoding = isExtended ? pix.ycbcr_enc : 0,
-             .quantization = isExtended ? pix.quantization : 0};
+             .quantization = isExtended ? pix.quantization : 0,
+             .transfer = isExtended ? pix.xfer_func : 0};
     return plain;
   }
   const v4l2_pix_format_mplane& pix = format.fmt.pix_mp;
@@ -51,9 +54,11 @@ PlainFormat plain(const v4l2_format& format, bool isMultiPlanar) {
            .memoryPlanes = pix.num_planes,
            .colorspace = pix.colorspace,
            .encoding = pix.ycbcr_enc,
-           .quantization = pix.quantization};
+           .quantization = pix.quantization,
+           .transfer = pix.xfer_func};
   for (std::size_t i = 0; i < plain.strides.size() && i < pix.num_planes; ++i) {
     plain.strides.at(i) = pix.plane_fmt[i].bytesperline;
+    plain.imageBytes.at(i) = pix.plane_fmt[i].sizeimage;
   }
   return plain;
 }
@@ -114,7 +119,8 @@ Result<Negotiated> understood(const Device& device, const PlainFormat& format) {
     return tl::unexpected(refused(device, "answers with " + std::to_string(format.memoryPlanes) +
                                               " planes of " + fourccText(format.fourcc)));
   }
-  Negotiated negotiated{.layout = layout, .stream = {}, .places = {}};
+  Negotiated negotiated{
+      .layout = layout, .stream = {}, .places = {}, .imageBytes = format.imageBytes};
   FrameFormat& frame = negotiated.stream.frame;
   frame.pixelFormat = layout->pixelFormat;
   frame.size = size;
@@ -125,6 +131,7 @@ Result<Negotiated> understood(const Device& device, const PlainFormat& format) {
   if (isYCbCr(frame.pixelFormat)) {
     frame.encoding = colorEncodingOf(format.colorspace, format.encoding, format.quantization);
   }
+  frame.encoding = withColorimetry(frame.encoding, format.colorspace, format.transfer);
   // A stride smaller than a packed row is invalid; such a driver is assumed to pack its rows.
   std::array<std::size_t, 3> strides = format.strides;
   for (int plane = 0; plane < layout->memoryPlanes; ++plane) {

@@ -16,6 +16,8 @@ struct Negotiated {
   const Layout* layout = nullptr;
   StreamFormat stream;
   std::array<PlanePlace, 3> places;  ///< for uncompressed formats only
+  /// The bytes that the driver wants in each memory plane (sizeimage).
+  std::array<std::size_t, 3> imageBytes{};
 };
 
 /// The size of the current format; nothing if none is set.

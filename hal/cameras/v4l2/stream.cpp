@@ -14,7 +14,8 @@ namespace {
 /// then.
 class Lease {
  public:
-  Lease(std::shared_ptr<const Buffer> buffer, std::shared_ptr<Returns> returns, std::uint32_t index)
+  Lease(std::shared_ptr<const Buffer> buffer, std::shared_ptr<ReturnedBuffers> returns,
+        std::uint32_t index)
       : buffer_(std::move(buffer)), returns_(std::move(returns)), index_(index) {}
   ~Lease() { returns_->put(index_); }
   Lease(const Lease&) = delete;
@@ -22,15 +23,15 @@ class Lease {
 
  private:
   std::shared_ptr<const Buffer> buffer_;
-  std::shared_ptr<Returns> returns_;
+  std::shared_ptr<ReturnedBuffers> returns_;
   std::uint32_t index_;
 };
 
 /// A v4l2_buffer with the plane array that the multi-planar interface requires.
 struct BufferRequest {
-  explicit BufferRequest(const Device& device) {
+  BufferRequest(const Device& device, std::uint32_t memory) {
     buffer.type = device.bufferType();
-    buffer.memory = V4L2_MEMORY_MMAP;
+    buffer.memory = memory;
     if (!device.isMultiPlanar()) return;
     buffer.m.planes = planes.data();
     buffer.length = static_cast<std::uint32_t>(planes.size());
@@ -38,6 +39,19 @@ struct BufferRequest {
   ~BufferRequest() = default;
   BufferRequest(const BufferRequest&) = delete;
   BufferRequest& operator=(const BufferRequest&) = delete;
+
+  /// Names the memory of a buffer that the driver has not allocated.
+  void lend(const Buffer& from, bool isMultiPlanar) {
+    if (!isMultiPlanar) {
+      buffer.m.fd = from.planes[0].dmaBuf.get();
+      buffer.length = static_cast<std::uint32_t>(from.planes[0].mapping.bytes().size());
+      return;
+    }
+    for (std::size_t i = 0; i < from.planes.size(); ++i) {
+      planes.at(i).m.fd = from.planes[i].dmaBuf.get();
+      planes.at(i).length = static_cast<std::uint32_t>(from.planes[i].mapping.bytes().size());
+    }
+  }
 
   v4l2_buffer buffer{};
   std::array<v4l2_plane, VIDEO_MAX_PLANES> planes{};
@@ -58,6 +72,15 @@ std::vector<std::size_t> neededBytesOf(const Negotiated& negotiated) {
   return needed;
 }
 
+/// What lent buffers have to hold: what the driver wants, and no less than the format needs.
+std::vector<std::size_t> lentBytesOf(const Negotiated& negotiated) {
+  std::vector<std::size_t> bytes = neededBytesOf(negotiated);
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    bytes[i] = std::max(bytes[i], negotiated.imageBytes.at(i));
+  }
+  return bytes;
+}
+
 /// Whether the device reports changes of its source; many lack the event.
 bool subscribeToSourceChanges(const Device& device) {
   v4l2_event_subscription subscription{};
@@ -70,8 +93,11 @@ bool subscribeToSourceChanges(const Device& device) {
 Stream::Stream(const Device& device, BufferSet buffers)
     : device_(device), buffers_(std::move(buffers)) {}
 
-Result<std::unique_ptr<Stream>> Stream::start(const Device& device, const Negotiated& negotiated) {
-  Result<BufferSet> buffers = BufferSet::allocate(device, neededBytesOf(negotiated));
+Result<std::unique_ptr<Stream>> Stream::start(const Device& device, const Negotiated& negotiated,
+                                              FrameAllocator* allocator) {
+  Result<BufferSet> buffers = allocator != nullptr
+                                  ? BufferSet::borrow(device, *allocator, lentBytesOf(negotiated))
+                                  : BufferSet::allocate(device, neededBytesOf(negotiated));
   if (!buffers) return tl::unexpected(std::move(buffers.error()));
   std::unique_ptr<Stream> stream(new Stream(device, *std::move(buffers)));
   for (std::uint32_t index = 0; index < stream->buffers_.count(); ++index) {
@@ -93,8 +119,9 @@ Stream::~Stream() {
 }
 
 int Stream::queue(std::uint32_t index) {
-  BufferRequest request(device_);
+  BufferRequest request(device_, buffers_.memory());
   request.buffer.index = index;
+  if (buffer(index).isLent) request.lend(buffer(index), device_.isMultiPlanar());
   return device_.ask(VIDIOC_QBUF, request.buffer);
 }
 
@@ -110,7 +137,7 @@ int Stream::queueReturned() {
 }
 
 int Stream::dequeue(Filled& filled) {
-  BufferRequest request(device_);
+  BufferRequest request(device_, buffers_.memory());
   if (const int answer = device_.ask(VIDIOC_DQBUF, request.buffer); answer < 0) return answer;
   const v4l2_buffer& buffer = request.buffer;
   // guards against an invalid index from the driver

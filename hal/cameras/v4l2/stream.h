@@ -8,6 +8,7 @@
 #include "hal/cameras/v4l2/buffers.h"
 #include "hal/cameras/v4l2/format.h"
 #include "hal/clock.h"
+#include "hal/returned_buffers.h"
 
 namespace pleinair::hal::v4l2 {
 
@@ -28,8 +29,10 @@ struct Filled {
 /// ends the stream; the device must outlive it.
 class Stream {
  public:
-  /// Errors: as BufferSet::allocate; kBusy and kIo if streaming cannot start.
-  static Result<std::unique_ptr<Stream>> start(const Device& device, const Negotiated& negotiated);
+  /// Streams into the allocator's memory, or the device's own where that is null. Errors: as
+  /// BufferSet::allocate and borrow; kBusy and kIo if streaming cannot start.
+  static Result<std::unique_ptr<Stream>> start(const Device& device, const Negotiated& negotiated,
+                                               FrameAllocator* allocator = nullptr);
   ~Stream();
   Stream(const Stream&) = delete;
   Stream& operator=(const Stream&) = delete;
@@ -44,6 +47,9 @@ class Stream {
   std::shared_ptr<const void> lend(std::uint32_t index);
 
   const Buffer& buffer(std::uint32_t index) const { return *buffers_.at(index); }
+  BufferIdentity identityOf(std::uint32_t index) const { return buffers_.identityOf(index); }
+  /// Whether its buffers have dma-bufs, of the driver's or of others.
+  bool hasDmaBufs() const { return static_cast<bool>(buffers_.at(0)->planes.at(0).dmaBuf); }
   /// Whether lending one more dequeued buffer would leave the driver with none.
   bool mustKeepTheNext() const { return lent_ + 1 >= buffers_.count(); }
   /// Whether leases will cause an underrun unless dequeue() comes in time: the driver has one
@@ -56,7 +62,7 @@ class Stream {
 
   const Device& device_;
   BufferSet buffers_;
-  std::shared_ptr<Returns> returns_ = std::make_shared<Returns>();
+  std::shared_ptr<ReturnedBuffers> returns_ = std::make_shared<ReturnedBuffers>();
   std::vector<std::uint32_t> returned_;  ///< scratch
   std::uint32_t lent_ = 0;
   bool hasEvents_ = false;

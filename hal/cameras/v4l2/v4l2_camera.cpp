@@ -69,6 +69,7 @@ class Session {
   ImageView viewOf(const Filled& filled) const;
   bool isSourceChanged() const;
   Result<void> restart();
+  Result<void> startStream();
   std::optional<NextFrame> followSource();
   /// Stores the answer, which every later call repeats.
   NextFrame end(NextFrame answer);
@@ -107,9 +108,28 @@ Result<void> Session::restart() {
   if (!negotiated) return tl::unexpected(std::move(negotiated.error()));
   negotiated_ = *std::move(negotiated);
   if (Result<void> set = setControls(device_, request_.controls); !set) return set;
-  Result<std::unique_ptr<Stream>> stream = Stream::start(device_, negotiated_);
+  return startStream();
+}
+
+/// In lent memory, where there is some and the driver takes it; else in the driver's own.
+Result<void> Session::startStream() {
+  StreamFormat& format = negotiated_.stream;
+  FrameAllocator* const allocator =
+      negotiated_.layout->isJpeg ? nullptr : request_.allocator.get();  // JPEGs are decoded
+  Result<std::unique_ptr<Stream>> stream = Stream::start(device_, negotiated_, allocator);
+  if (!stream && allocator != nullptr) {
+    format.memoryNote = stream.error().message();
+    stream = Stream::start(device_, negotiated_);
+  } else if (allocator != nullptr) {
+    format.memoryNote = allocator->name();
+  }
   if (!stream) return tl::unexpected(std::move(stream.error()));
   stream_ = *std::move(stream);
+  const bool isLent = stream_->buffer(0).isLent;
+  const bool isShared = !negotiated_.layout->isJpeg && stream_->hasDmaBufs();
+  format.memory = isLent     ? FrameMemory::kLent
+                  : isShared ? FrameMemory::kExported
+                             : FrameMemory::kProcessor;
   return {};
 }
 
@@ -231,7 +251,7 @@ ImageView Session::viewOf(const Filled& filled) const {
 
 void Session::lendPixels(const Filled& filled, CapturedFrame& frame) {
   const Buffer& buffer = stream_->buffer(filled.index);
-  frame.image = viewOf(filled);
+  frame.image = FrameImage(viewOf(filled), buffer.access());
   if (stream_->mustKeepTheNext()) {
     const auto copy = std::make_shared<const Image>(frame.image);
     frame.image = copy->view();
@@ -240,6 +260,7 @@ void Session::lendPixels(const Filled& filled, CapturedFrame& frame) {
     return;
   }
   frame.lease = stream_->lend(filled.index);
+  if (stream_->hasDmaBufs()) frame.buffer = stream_->identityOf(filled.index);
   for (int plane = 0; plane < planeCount(frame.image.format.pixelFormat); ++plane) {
     const auto index = static_cast<std::size_t>(plane);
     const PlanePlace& place = negotiated_.places.at(index);
@@ -248,7 +269,8 @@ void Session::lendPixels(const Filled& filled, CapturedFrame& frame) {
     if (!dmaBuf) continue;
     frame.dmaBufs.at(index) = {
         .fd = dmaBuf.get(),
-        .offsetBytes = filled.planes.at(memoryPlane).offsetBytes + place.offsetBytes};
+        .offsetBytes = filled.planes.at(memoryPlane).offsetBytes + place.offsetBytes,
+        .strideBytes = place.strideBytes};
   }
 }
 
@@ -277,9 +299,11 @@ void Session::decodePixels(const Filled& filled, CapturedFrame& frame) {
   frame.lease = lastLease_;
 }
 
-V4l2Camera::V4l2Camera(const std::string& id, System system, Clock& clock)
+V4l2Camera::V4l2Camera(const std::string& id, System system, Clock& clock,
+                       FrameMemoryOptions memory)
     : system_(system),
       clock_(clock),
+      memory_(memory),
       identity_{.backend = "v4l2", .id = id, .description = "V4L2 camera " + id} {}
 
 V4l2Camera::~V4l2Camera() = default;
@@ -295,9 +319,21 @@ Result<StreamFormat> V4l2Camera::start(const StreamRequest& request) {
   Result<Device> device = Device::open(system_.calls, *node);
   if (!device) return tl::unexpected(std::move(device.error()));
   identity_.description = device->capability().card + " at " + *node;
-  auto session = std::make_unique<Session>(*std::move(device), request, clock_);
+  StreamRequest wanted = request;
+  std::string problem;
+  if (!wanted.allocator && memory_.allocator) {
+    Result<std::shared_ptr<FrameAllocator>> allocator = openAllocator(*memory_.allocator);
+    if (allocator) {
+      wanted.allocator = *std::move(allocator);
+    } else {
+      problem = allocator.error().message();
+    }
+  }
+  auto session = std::make_unique<Session>(*std::move(device), wanted, clock_);
   Result<StreamFormat> format = session->begin();
-  if (format) session_ = std::move(session);
+  if (!format) return format;
+  if (format->memoryNote.empty()) format->memoryNote = std::move(problem);
+  session_ = std::move(session);
   return format;
 }
 

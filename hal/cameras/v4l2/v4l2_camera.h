@@ -7,13 +7,20 @@
 
 #include "hal/camera.h"
 #include "hal/cameras/v4l2/device_nodes.h"
+#include "hal/frame_memory/allocators.h"
 
 namespace pleinair::hal::v4l2 {
 
 class Session;
 
+struct FrameMemoryOptions {
+  /// Whose memory frames lie in; unset: the device's own.
+  std::optional<AllocatorKind> allocator;
+};
+
 /// A V4L2 device (docs/cameras.md): memory-mapped buffers, exported as dma-bufs if the driver can
-/// do that, over the single- or the multi-planar interface.
+/// do that, or memory of an allocator (StreamRequest::allocator, else that of the options) if the
+/// driver takes it, over the single- or the multi-planar interface.
 ///
 /// start() selects the mode nearest to the request (hal/cameras/v4l2/modes.h), reads back the
 /// format that the driver set, and sets the controls. Its errors are those of Camera::start();
@@ -31,7 +38,7 @@ class Session;
 class V4l2Camera final : public Camera {
  public:
   /// `id`: as V4l2Backend::list() gives it, or a node's path. No device is opened before start().
-  V4l2Camera(const std::string& id, System system, Clock& clock);
+  V4l2Camera(const std::string& id, System system, Clock& clock, FrameMemoryOptions memory = {});
   ~V4l2Camera() override;
   V4l2Camera(const V4l2Camera&) = delete;
   V4l2Camera& operator=(const V4l2Camera&) = delete;
@@ -44,6 +51,7 @@ class V4l2Camera final : public Camera {
  private:
   System system_;
   Clock& clock_;
+  FrameMemoryOptions memory_;
   CameraIdentity identity_;
   std::unique_ptr<Session> session_;  ///< while streaming
 };

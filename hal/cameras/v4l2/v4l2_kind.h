@@ -8,6 +8,7 @@
 #include "hal/camera_backend.h"
 #include "hal/camera_kind.h"
 #include "hal/cameras/v4l2/device_nodes.h"
+#include "hal/cameras/v4l2/v4l2_camera.h"
 
 namespace pleinair::hal::v4l2 {
 
@@ -15,7 +16,8 @@ namespace pleinair::hal::v4l2 {
 /// node's path, such as "/dev/video0".
 class V4l2Backend final : public CameraBackend {
  public:
-  explicit V4l2Backend(System system = kernelSystem()) : system_(system) {}
+  explicit V4l2Backend(System system = kernelSystem(), FrameMemoryOptions memory = {})
+      : system_(system), memory_(memory) {}
 
   std::string_view name() const override { return "v4l2"; }
   Result<std::vector<CameraDescription>> list() override;
@@ -23,9 +25,10 @@ class V4l2Backend final : public CameraBackend {
 
  private:
   System system_;
+  FrameMemoryOptions memory_;
 };
 
-/// V4L2 devices. No keys of their own: size, rate and controls are those of all cameras.
+/// V4L2 devices. Its table has where frames lie; size, rate and controls are those of all cameras.
 const CameraKind& cameraKind();
 
 }  // namespace pleinair::hal::v4l2

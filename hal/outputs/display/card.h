@@ -13,6 +13,7 @@
 #include "hal/clock.h"
 #include "hal/error.h"
 #include "hal/pixel_format.h"
+#include "hal/surface.h"
 
 namespace pleinair::hal::display {
 
@@ -60,6 +61,9 @@ struct Plane {
   bool isPrimary = false;
   std::uint32_t crtcs = 0;  ///< a bit for each CRTC, by index, that can show it
   std::vector<std::uint32_t> fourccs;
+  /// The layouts of XRGB8888 that it scans out (modifiers of drm_fourcc.h); empty where its driver
+  /// names none.
+  std::vector<std::uint64_t> modifiers;
   std::vector<Property> properties;
 };
 
@@ -78,9 +82,10 @@ struct Change {
 };
 
 enum class Commit {
-  kTest,     ///< only asks whether the card would take it, a modeset included
-  kModeset,  ///< may change modes; returns when it is done
-  kFlip,     ///< returns at once; a FlipEvent follows
+  kTest,      ///< only asks whether the card would take it, a modeset included
+  kTestFlip,  ///< only asks whether the card would take it without a modeset
+  kModeset,   ///< may change modes; returns when it is done
+  kFlip,      ///< returns at once; a FlipEvent follows
 };
 
 /// A flip that took place.
@@ -104,6 +109,15 @@ struct ScanOutBuffer {
   int dmaBuf = -1;  ///< −1 where the driver does not export it; closed with the buffer
   std::span<std::uint8_t> memory;
   std::size_t strideBytes = 0;
+};
+
+/// Memory that a CRTC can scan out and that a GPU draws into, XRGB8888 in a layout of its driver's.
+struct GpuBuffer {
+  ObjectId framebuffer = 0;
+  std::uint64_t modifier = kLinearModifier;
+  int planeCount = 1;
+  std::array<SurfacePlane, 4> planes;  ///< their descriptors are closed with the buffer
+  void* allocation = nullptr;          ///< the card's own
 };
 
 /// A CRTC's framebuffer, mode and connector before an output claimed it.
@@ -154,9 +168,21 @@ class Card {
   virtual int createBuffer(FrameSize size, ScanOutBuffer& buffer) = 0;
   virtual void destroyBuffer(const ScanOutBuffer& buffer) = 0;
 
+  /// A buffer for a GPU, in the best of these layouts; undefined content. The first call may take
+  /// some 100 ms, for a driver to be loaded. ENOSYS: there is none.
+  virtual int createGpuBuffer(FrameSize size, std::span<const std::uint64_t> modifiers,
+                              GpuBuffer& buffer) = 0;
+  virtual void destroyGpuBuffer(const GpuBuffer& buffer) = 0;
+  /// Copies what lies in it into `pixels`, as the display would show it: packed rows of bytes
+  /// B, G, R, X. Waits for the GPU; slow.
+  virtual int readGpuBuffer(const GpuBuffer& buffer, FrameSize size,
+                            std::span<std::uint8_t> pixels) = 0;
+
   /// The last vertical blanking of a CRTC that is on; nothing where its driver has none, and flips
   /// take place at once.
   virtual std::optional<Vblank> lastVblank(ObjectId crtc) = 0;
+  /// Whether its driver counts a CRTC's refreshes, which may be off.
+  virtual bool hasVblank(ObjectId crtc) = 0;
   /// Appends the flips since the last call, of all CRTCs. Never waits.
   virtual int takeFlips(std::vector<FlipEvent>& flips) = 0;
 };
@@ -177,8 +203,8 @@ class Cards {
 
   // What displays ask of the machine besides. Any thread.
 
-  /// Local time, since midnight.
-  virtual Duration timeOfDay() = 0;
+  /// Local time, since midnight; nothing while the machine's clock cannot be right.
+  virtual std::optional<Duration> timeOfDay() = 0;
   /// How long the machine has been suspended since it was switched on.
   virtual Duration timeSuspended() = 0;
 

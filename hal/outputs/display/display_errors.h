@@ -12,7 +12,7 @@ Error noCard(std::string subject);
 /// kBusy: another program is the card's master; names those that have it open.
 Error notMaster(const std::string& node, std::string subject);
 
-/// Of kBusy: another virtual terminal shows.
+/// The problem of a kBusy error: another virtual terminal has the display.
 inline constexpr const char* kOtherConsole = "another console is in front";
 
 /// The other programs that have a card open, as far as this user may see: "Xorg (712), kmscube

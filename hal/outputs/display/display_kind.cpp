@@ -33,6 +33,19 @@ bool isMargin(std::string_view text) {
   return percentOf(text).has_value();
 }
 
+std::optional<int> driftOf(std::string_view text) {
+  constexpr int kMost = 16;
+  int pixels = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), pixels);
+  const bool isWhole = read.ec == std::errc() && read.ptr == text.data() + text.size();
+  if (!isWhole || pixels < 0 || pixels > kMost) return std::nullopt;
+  return pixels;
+}
+
+bool isDrift(std::string_view text) {
+  return driftOf(text).has_value();
+}
+
 bool isMode(std::string_view text) {
   return isModeText(std::string(text));
 }
@@ -59,6 +72,8 @@ DisplaySettings settingsOf(const OutputOptions& options) {
   const std::string rotation = valueOf(options, "rotation", "0");
   placement.quarterTurns = rotation == "90" ? 1 : rotation == "180" ? 2 : rotation == "270" ? 3 : 0;
   placement.marginPercent = percentOf(valueOf(options, "margin", "0")).value_or(0.0);
+  settings.driftPixels = driftOf(valueOf(options, "drift", "0")).value_or(0);
+  settings.lendsToGpu = valueOf(options, "scan_out", "auto") != "copied";
   settings.blanking.times = DailyTimes::parsed(valueOf(options, "blank", "never"));
   const auto quiet = QuietTime::parsed(valueOf(options, "blank_after", "never"));
   settings.blanking.after = quiet.value_or(QuietTime{}).after;
@@ -118,6 +133,17 @@ OutputListing listDisplays(const fs::path& folder) {
   return listing;
 }
 
+Result<DisplayTiming> displayTiming(const std::string& name, Cards& cards) {
+  const Result<ClaimedDisplay> claimed = claimDisplay(cards, name, {});
+  if (!claimed) return tl::unexpected(claimed.error());
+  const DisplayRoute& route = claimed->route;
+  const DisplayTiming timing{.size = route.mode.size,
+                             .period = route.mode.period,
+                             .hasVblank = claimed->card->card().hasVblank(route.crtc.id)};
+  claimed->card->release(route);
+  return timing;
+}
+
 OutputKind displayKind() {
   return {.name = std::string(kDisplayName),
           .help = "a screen without a desktop, through the kernel (DRM/KMS)",
@@ -142,6 +168,16 @@ OutputKind displayKind() {
                        .initial = "0",
                        .allowed = "a number from 0 to 20",
                        .takes = isMargin},
+                      {.name = "drift",
+                       .help = "By how many pixels pictures move to and fro, one a minute, so that "
+                               "nothing burns in; as much of each edge is cut off.",
+                       .initial = "0",
+                       .allowed = "a whole number from 0 to 16",
+                       .takes = isDrift},
+                      {.name = "scan_out",
+                       .help = "Whether the GPU draws straight into the display's memory, where a "
+                               "trial has shown that it can, or pictures are always copied.",
+                       .choices = {"auto", "copied"}},
                       {.name = "blank",
                        .help = "From when to when the display is switched off while nobody is "
                                "there.",

@@ -41,6 +41,10 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
   void release(const Surface& surface) override;
   Result<void> submit(const Surface& surface, Fence fence, TimePoint due) override;
   Result<void> takeEvents(std::vector<PresentationEvent>& events) override;
+  Result<std::vector<GpuSurface>> lendToGpu(std::span<const std::uint64_t> modifiers,
+                                            std::size_t count) override;
+  Result<std::optional<SurfaceId>> acquireForGpu() override;
+  Result<Image> copyOfGpuSurface(SurfaceId surface, bool isWholeBuffer) override;
   std::optional<TimePoint> nextEvent() const override { return flips_->nextEvent(); }
   const Suspension* suspension() const override { return suspension_ ? &*suspension_ : nullptr; }
   void noteActivity() override { cards_.noteActivity(clock_.now()); }
@@ -53,8 +57,10 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
   OutputFormat place(FrameSize picture);
 
   void unmap(SurfaceId surface) override { bufferOf(surface).isMapped = false; }
+  DisplayBuffer* gpuBufferOf(SurfaceId surface);
   DisplayBuffer& bufferOf(SurfaceId surface) {
-    return pipe_->buffers().at(static_cast<std::size_t>(surface));
+    DisplayBuffer* const gpu = gpuBufferOf(surface);
+    return gpu != nullptr ? *gpu : pipe_->buffers().at(static_cast<std::size_t>(surface));
   }
 
   Result<void> advance();
@@ -67,6 +73,12 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
   Result<void> followBlanking(TimePoint now);
   Result<void> switchOff(TimePoint now);
   bool isToBeOff(TimePoint now) const;
+  Error noGpuSurface() const {
+    return {.kind = ErrorKind::kUnsupported,
+            .subject = name_,
+            .problem = "lends this surface to no processor, or not any more",
+            .remedy = {}};
+  }
   Error unusableSize() const {
     return {.kind = ErrorKind::kUnsupported,
             .subject = name_,
@@ -82,6 +94,7 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
   std::optional<DisplayPipe> pipe_;
   std::optional<FlipQueue> flips_;
   TimePoint checkAt_;
+  TimePoint driftsSince_;
 
   std::optional<Suspension> suspension_;
   std::uint64_t yields_ = 0;     ///< timesYielded() when the mode was set
@@ -97,7 +110,8 @@ Result<OutputFormat> DisplayOutput::start(const OutputRequest& request) {
       cards_, name_, {.connector = {}, .mode = settings_.mode, .framePeriod = request.framePeriod});
   if (!claimed) return tl::unexpected(claimed.error());
   const Mode mode = claimed->route.mode;
-  pipe_.emplace(*std::move(claimed), settings_.mode == "auto");
+  pipe_.emplace(*std::move(claimed), settings_.mode == "auto", settings_.driftPixels);
+  driftsSince_ = clock_.now();
   flips_.emplace(*pipe_, clock_);
   if (const auto set = setMode(mode); !set) return tl::unexpected(set.error());
   return place(request.size);
@@ -130,6 +144,7 @@ Result<OutputFormat> DisplayOutput::reconfigure(const OutputRequest& request) {
   if (!isAcceptedSize(request.size)) return tl::unexpected(unusableSize());
   const TimePoint now = clock_.now();
   flips_->skipQueued(now);
+  pipe_->retireGpuBuffers();
   const Result<Mode> mode =
       chooseMode(pipe_->connector(),
                  {.connector = {}, .mode = settings_.mode, .framePeriod = request.framePeriod});
@@ -163,7 +178,82 @@ Result<std::optional<Surface>> DisplayOutput::acquire() {
   return free->surface;
 }
 
+DisplayBuffer* DisplayOutput::gpuBufferOf(SurfaceId surface) {
+  for (const auto& each : pipe_->gpuBuffers()) {
+    if (each->surface.id == surface) return each.get();
+  }
+  return nullptr;
+}
+
+Result<std::vector<GpuSurface>> DisplayOutput::lendToGpu(std::span<const std::uint64_t> modifiers,
+                                                         std::size_t count) {
+  if (!settings_.lendsToGpu) {
+    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
+                                .subject = name_,
+                                .problem = "is set to copy pictures (scan_out)",
+                                .remedy = {}});
+  }
+  if (auto made = pipe_->makeGpuBuffers(modifiers, count); !made) {
+    return tl::unexpected(made.error());
+  }
+  std::vector<GpuSurface> surfaces;
+  for (const auto& each : pipe_->gpuBuffers()) {
+    if (!each->isRetired) surfaces.push_back(pipe_->gpuSurface(*each));
+  }
+  return surfaces;
+}
+
+Result<std::optional<SurfaceId>> DisplayOutput::acquireForGpu() {
+  if (const auto advanced = advance(); !advanced) return tl::unexpected(advanced.error());
+  if (flips_->takeGpuRefusal()) {
+    pipe_->retireGpuBuffers();
+    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
+                                .subject = pipe_->connector().name,
+                                .problem = "has refused to show what the GPU drew",
+                                .remedy = {}});
+  }
+  if (suspension_) return std::nullopt;
+  for (const auto& each : pipe_->gpuBuffers()) {
+    if (each->isRetired || each->state != State::kFree) continue;
+    each->state = State::kLent;
+    return each->surface.id;
+  }
+  return std::nullopt;
+}
+
+Result<Image> DisplayOutput::copyOfGpuSurface(SurfaceId surface, bool isWholeBuffer) {
+  const DisplayBuffer* const buffer = gpuBufferOf(surface);
+  if (buffer == nullptr) return tl::unexpected(noGpuSurface());
+  const FrameSize all = pipe_->canvasSize();
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(all.pixels()) * 4);
+  if (const int failed = pipe_->card().readGpuBuffer(*buffer->gpu, all, bytes); failed != 0) {
+    Error error = pipe_->failure(failed, "cannot read back what the GPU drew");
+    if (error.kind != ErrorKind::kDeviceLost) error.kind = ErrorKind::kUnsupported;
+    return tl::unexpected(std::move(error));
+  }
+  const GpuSurface drawn = pipe_->gpuSurface(*buffer);
+  const FrameSize size = isWholeBuffer ? all : drawn.surface.format.size;
+  const int left = isWholeBuffer ? 0 : drawn.x;
+  const int top = isWholeBuffer ? 0 : drawn.y;
+  Image image({.pixelFormat = PixelFormat::kRgba8, .size = size, .encoding = {}});
+  for (int y = 0; y < size.height; ++y) {
+    const std::size_t begin =
+        (static_cast<std::size_t>(top + y) * static_cast<std::size_t>(all.width) +
+         static_cast<std::size_t>(left)) *
+        4;
+    const std::span<std::uint8_t> row = image.row(0, y);
+    for (std::size_t i = 0; i + 4 <= row.size(); i += 4) {
+      row[i] = bytes[begin + i + 2];
+      row[i + 1] = bytes[begin + i + 1];
+      row[i + 2] = bytes[begin + i];
+      row[i + 3] = 255;
+    }
+  }
+  return image;
+}
+
 Result<SurfaceMapping> DisplayOutput::map(const Surface& surface) {
+  if (gpuBufferOf(surface.id) != nullptr) return tl::unexpected(noGpuSurface());
   DisplayBuffer& buffer = bufferOf(surface.id);
   assert(buffer.state == State::kLent && !buffer.isMapped);
   buffer.isMapped = true;
@@ -223,8 +313,9 @@ Result<void> DisplayOutput::checkConnection(TimePoint now) {
     return tl::unexpected(has.error());
   }
   flips_->followRefresh();
-  isInBlankTimes_ =
-      settings_.blanking.times && settings_.blanking.times->contain(cards_.timeOfDay());
+  pipe_->panTo(static_cast<std::uint64_t>((now - driftsSince_) / DisplaySettings::kDriftInterval));
+  const std::optional<Duration> time = cards_.timeOfDay();
+  isInBlankTimes_ = time && settings_.blanking.times && settings_.blanking.times->contain(*time);
   if (has.isYes()) return {};
   return tl::unexpected(Error{.kind = ErrorKind::kDeviceLost,
                               .subject = pipe_->connector().name,

@@ -17,6 +17,11 @@ struct DisplaySettings {
   std::string mode = "auto";  ///< display::DisplayRequest::mode
   display::Placement placement;
   display::BlankingRules blanking;
+  /// By how many pixels, at most, pictures move away from the middle and back, a pixel in each
+  /// kDriftInterval, so that nothing burns in; as much of each edge is cut off. 0: not at all.
+  int driftPixels = 0;
+  static constexpr Duration kDriftInterval = std::chrono::minutes(1);
+  bool lendsToGpu = true;  ///< else pictures are always copied
 };
 
 /// A display without a desktop, through the kernel's mode setting (DRM/KMS), by atomic commits.
@@ -30,8 +35,9 @@ struct DisplaySettings {
 /// (nothing is plugged in), kBusy (another program or output shows on it), kUnsupported (the card
 /// refuses the mode).
 ///
-/// Surfaces are buffers that the processor writes. Whether the display is still plugged in is
-/// looked at once a second; it is lost then, and where a flip does not take place within a second.
+/// Surfaces are buffers that the processor writes; beside them, where the card has such, buffers
+/// that a GPU draws into. Whether the display is still plugged in is looked at once a second; it is
+/// lost then, and where a flip does not take place within a second.
 ///
 /// While another console is in front (leaveConsole()) or another program has become the card's
 /// master, it is suspended, and afterwards sets its mode anew, as it does after the computer was
@@ -56,8 +62,21 @@ void enterConsole();
 /// (`folder`, as /sys/class/drm). Opens no card.
 OutputListing listDisplays(const std::filesystem::path& folder = "/sys/class/drm");
 
-/// "display" and "display:CONNECTOR"; its options are `mode`, `fit`, `rotation`, `margin`,
-/// `blank` and `blank_after`.
+/// When a display shows pictures.
+struct DisplayTiming {
+  FrameSize size;
+  Duration period{0};     ///< between refreshes
+  bool hasVblank = true;  ///< else its driver counts none, and pictures are paced by the clock
+};
+
+/// Of the display of that name, as for openDisplay(), in the mode that it has for a camera of
+/// unknown rate. It is claimed, and released; no mode is set. Errors: as of openDisplay()'s
+/// start(), but for those of setting the mode.
+Result<DisplayTiming> displayTiming(const std::string& name,
+                                    display::Cards& cards = display::kernelCards());
+
+/// "display" and "display:CONNECTOR"; its options are `mode`, `fit`, `rotation`, `margin`, `drift`,
+/// `scan_out`, `blank` and `blank_after`.
 OutputKind displayKind();
 
 }  // namespace pleinair::hal

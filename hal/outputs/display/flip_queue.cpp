@@ -12,12 +12,13 @@ namespace {
 using State = DisplayBuffer::State;
 
 constexpr Duration kFlipPatience = std::chrono::seconds(1);
+constexpr std::size_t kMaxQueued = 16;  // beyond, it allocates
 constexpr Duration kRetryInterval = std::chrono::milliseconds(1);
 
 }  // namespace
 
 void FlipQueue::begin(DisplayBuffer& shown) {
-  queue_.reserve(DisplayPipe::kBuffers);
+  queue_.reserve(kMaxQueued);
   onScreen_ = &shown;
   onScreen_->state = State::kOnScreen;
   readTiming();
@@ -95,29 +96,36 @@ TimePoint FlipQueue::commitTime(const Queued& queued) const {
   return hasVblank_ ? earliest : refreshAtOrAfter(earliest, phase_, period_);
 }
 
+bool FlipQueue::isReady(const Queued& queued, TimePoint now) const {
+  return commitTime(queued) <= now && queued.fence.hasSignalled();
+}
+
 int FlipQueue::commitNext(TimePoint now) {
   if (flipping_ != nullptr || now < retryAt_) return 0;
   std::size_t ready = 0;
-  while (ready < queue_.size() && commitTime(queue_[ready]) <= now &&
-         queue_[ready].fence.hasSignalled()) {
-    ++ready;
-  }
-  if (ready == 0) return 0;
+  while (ready < queue_.size() && isReady(queue_[ready], now)) ++ready;
+  const bool isWaitedFor =
+      ready == 0 && pipe_.waitsForFences() && !queue_.empty() && commitTime(queue_.front()) <= now;
+  if (ready == 0 && !isWaitedFor) return 0;
   for (; ready > 1; --ready) {
     end(*queue_.front().buffer, PresentationEvent::Result::kSuperseded, now);
     queue_.erase(queue_.begin());
   }
   DisplayBuffer& next = *queue_.front().buffer;
-  const int failed = pipe_.flipTo(next);
+  const int failed = pipe_.flipTo(next, isWaitedFor ? queue_.front().fence.syncFile() : -1);
   if (failed == -EBUSY) {
     // The flip before is not quite over.
+    if (!busySince_) busySince_ = now;
     retryAt_ = now + kRetryInterval;
     return 0;
   }
+  busySince_.reset();
   queue_.erase(queue_.begin());
   if (failed != 0) {
     end(next, PresentationEvent::Result::kSkipped, now);
-    return failed == -ENOMEM ? 0 : failed;
+    const bool isGpuRefused = next.gpu.has_value() && (failed == -EINVAL || failed == -ERANGE);
+    isGpuRefused_ = isGpuRefused_ || isGpuRefused;
+    return failed == -ENOMEM || isGpuRefused ? 0 : failed;
   }
   next.state = State::kFlipping;
   flipping_ = &next;
@@ -134,6 +142,7 @@ void FlipQueue::end(DisplayBuffer& buffer, PresentationEvent::Result result, Tim
 void FlipQueue::skipQueued(TimePoint now) {
   for (const Queued& each : queue_) end(*each.buffer, PresentationEvent::Result::kSkipped, now);
   queue_.clear();
+  busySince_.reset();
 }
 
 void FlipQueue::skipFlipping(TimePoint now) {
@@ -142,11 +151,22 @@ void FlipQueue::skipFlipping(TimePoint now) {
 }
 
 bool FlipQueue::isOverdue(TimePoint now) const {
-  return flipping_ != nullptr && now - committed_ > kFlipPatience;
+  const bool isMissing = flipping_ != nullptr && now - committed_ > kFlipPatience;
+  // Asked again meanwhile: this program may itself have stood still.
+  const bool isBusy = busySince_ && retryAt_ - *busySince_ > kFlipPatience;
+  return isMissing || isBusy;
 }
 
 void FlipQueue::blackenScreen() {
-  if (onScreen_ != nullptr) std::ranges::fill(onScreen_->memory.memory, std::uint8_t{0});
+  if (onScreen_ == nullptr) return;
+  if (onScreen_->gpu) {
+    const auto free = std::ranges::find(pipe_.buffers(), State::kFree, &DisplayBuffer::state);
+    if (free == pipe_.buffers().end()) return;
+    onScreen_->state = State::kFree;
+    onScreen_ = &*free;
+    onScreen_->state = State::kOnScreen;
+  }
+  std::ranges::fill(onScreen_->memory.memory, std::uint8_t{0});
 }
 
 void FlipQueue::takeEvents(std::vector<PresentationEvent>& events) {
@@ -163,6 +183,9 @@ std::optional<TimePoint> FlipQueue::nextEvent() const {
     return std::max(refresh, now + kRetryInterval);
   }
   if (queue_.empty()) return std::nullopt;
+  const bool isOnlyUnfinished =
+      commitTime(queue_.front()) <= now && !queue_.front().fence.hasSignalled();
+  if (isOnlyUnfinished) return now + kRetryInterval;
   return std::max(commitTime(queue_.front()), std::max(retryAt_, now));
 }
 

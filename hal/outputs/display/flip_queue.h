@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "hal/clock.h"
@@ -31,9 +32,10 @@ class FlipQueue {
   void push(DisplayBuffer& buffer, Fence fence, TimePoint due);
   /// Takes the card's events. 0, or −errno.
   int takeFlips();
-  /// Commits the newest of the buffers whose refresh is next, up to the first that is not ready. 0,
-  /// or −errno: EACCES (not the master), and what says that the card is gone. A busy card is asked
-  /// again; a picture that it has no memory for is skipped.
+  /// Commits the newest of the buffers whose refresh is next, up to the first that is not ready;
+  /// one that is alone, with its fence, if the card waits for that itself. 0, or −errno: EACCES
+  /// (not the master), and what says that the card is gone. A busy card is asked again; a picture
+  /// that it has no memory for is skipped, and so is one of a GPU's that it refuses.
   int commitNext(TimePoint now);
 
   /// Ends the queued buffers as kSkipped; one that is flipping may still be shown.
@@ -46,8 +48,10 @@ class FlipQueue {
   bool isOverdue(TimePoint now) const;
   /// The one on the screen; null before begin().
   const DisplayBuffer* onScreen() const { return onScreen_; }
-  /// Its memory, which is black from then on.
+  /// What is on the screen is black from then on; another buffer may be in its place.
   void blackenScreen();
+  /// Whether the card has refused to flip to a buffer of a GPU, once.
+  bool takeGpuRefusal() { return std::exchange(isGpuRefused_, false); }
 
   Refresh refresh() const;
   /// Moves the events since the last call to the end of `events`.
@@ -61,6 +65,7 @@ class FlipQueue {
     Fence fence;
     TimePoint due;
   };
+  bool isReady(const Queued& queued, TimePoint now) const;
   void flipped(const FlipEvent& flip);
   TimePoint commitTime(const Queued& queued) const;
   void end(DisplayBuffer& buffer, PresentationEvent::Result result, TimePoint time);
@@ -75,10 +80,12 @@ class FlipQueue {
   std::uint64_t lastSequence_ = 0;  ///< its number
 
   std::vector<Queued> queue_;  ///< the earliest first
+  bool isGpuRefused_ = false;
   DisplayBuffer* flipping_ = nullptr;
   DisplayBuffer* onScreen_ = nullptr;
   TimePoint committed_;  ///< flipping_
   TimePoint retryAt_;    ///< where the card was busy
+  std::optional<TimePoint> busySince_;
   std::vector<FlipEvent> flips_;
   std::vector<PresentationEvent> events_;
 };

@@ -17,7 +17,9 @@
 #include <xf86drmMode.h>
 
 #include "hal/file_descriptor.h"
+#include "hal/machine/local_time.h"
 #include "hal/outputs/display/card.h"
+#include "hal/outputs/display/gbm_buffers.h"
 
 namespace pleinair::hal::display {
 namespace {
@@ -42,6 +44,7 @@ using PropertyHandle = Handle<drmModePropertyRes, drmModeFreeProperty>;
 using CrtcHandle = Handle<drmModeCrtc, drmModeFreeCrtc>;
 using Request = Handle<drmModeAtomicReq, drmModeAtomicFree>;
 using Version = Handle<drmVersion, drmFreeVersion>;
+using PropertyBlob = Handle<drmModePropertyBlobRes, drmModeFreePropertyBlob>;
 
 std::vector<Property> propertiesOf(int card, ObjectId object, std::uint32_t type) {
   std::vector<Property> properties;
@@ -87,7 +90,7 @@ std::string nameOf(const drmModeConnector& connector) {
 class KernelCard final : public Card {
  public:
   KernelCard(std::string node, FileDescriptor file)
-      : node_(std::move(node)), file_(std::move(file)) {
+      : node_(std::move(node)), file_(std::move(file)), gbm_(file_.get()) {
     const Version version(drmGetVersion(file_.get()));
     if (version) driver_ = version->name;
     std::uint64_t isMonotonic = 0;
@@ -201,6 +204,16 @@ class KernelCard final : public Card {
     drmIoctl(file_.get(), DRM_IOCTL_MODE_DESTROY_DUMB, &destroyed);
   }
 
+  int createGpuBuffer(FrameSize size, std::span<const std::uint64_t> modifiers,
+                      GpuBuffer& buffer) override {
+    return gbm_.create(size, modifiers, buffer);
+  }
+  void destroyGpuBuffer(const GpuBuffer& buffer) override { gbm_.destroy(buffer); }
+  int readGpuBuffer(const GpuBuffer& buffer, FrameSize size,
+                    std::span<std::uint8_t> pixels) override {
+    return gbm_.read(buffer, size, pixels);
+  }
+
   std::optional<Vblank> lastVblank(ObjectId crtc) override {
     Vblank last;
     std::uint64_t time = 0;
@@ -208,6 +221,11 @@ class KernelCard final : public Card {
     const bool isTimed = hasMonotonicTime_ && time != 0;  // 0: the driver does not know it
     last.time = isTimed ? TimePoint(std::chrono::nanoseconds(time)) : SteadyClock().now();
     return last;
+  }
+
+  bool hasVblank(ObjectId crtc) override {
+    const bool isRead = drmCrtcGetSequence(file_.get(), crtc, nullptr, nullptr) == 0;
+    return isRead || errno != EOPNOTSUPP;  // another error: the CRTC is off
   }
 
   int takeFlips(std::vector<FlipEvent>& flips) override {
@@ -238,6 +256,8 @@ class KernelCard final : public Card {
     switch (kind) {
       case Commit::kTest:
         return DRM_MODE_ATOMIC_TEST_ONLY | DRM_MODE_ATOMIC_ALLOW_MODESET;
+      case Commit::kTestFlip:
+        return DRM_MODE_ATOMIC_TEST_ONLY;
       case Commit::kModeset:
         return DRM_MODE_ATOMIC_ALLOW_MODESET;
       case Commit::kFlip:
@@ -300,9 +320,18 @@ class KernelCard final : public Card {
                 .isPrimary = false,
                 .crtcs = from.possible_crtcs,
                 .fourccs = {from.formats, from.formats + from.count_formats},
+                .modifiers = {},
                 .properties = propertiesOf(file_.get(), from.plane_id, DRM_MODE_OBJECT_PLANE)};
     const Property* type = find(plane.properties, "type");
     plane.isPrimary = type != nullptr && type->value == DRM_PLANE_TYPE_PRIMARY;
+    if (const Property* layouts = find(plane.properties, "IN_FORMATS")) {
+      const PropertyBlob blob(
+          drmModeGetPropertyBlob(file_.get(), static_cast<std::uint32_t>(layouts->value)));
+      if (blob) {
+        plane.modifiers = modifiersIn({static_cast<const std::uint8_t*>(blob->data), blob->length},
+                                      DRM_FORMAT_XRGB8888);
+      }
+    }
     return plane;
   }
 
@@ -327,6 +356,7 @@ class KernelCard final : public Card {
 
   std::string node_;
   FileDescriptor file_;
+  GbmBuffers gbm_;
   std::string driver_;
   bool hasMonotonicTime_ = true;
   std::mutex mutex_;  ///< of takeFlips()
@@ -364,13 +394,7 @@ class KernelCards final : public Cards {
     return std::make_unique<KernelCard>(node, std::move(file));
   }
 
-  Duration timeOfDay() override {
-    const std::time_t now = std::time(nullptr);
-    std::tm local{};
-    ::localtime_r(&now, &local);
-    return std::chrono::hours(local.tm_hour) + std::chrono::minutes(local.tm_min) +
-           std::chrono::seconds(local.tm_sec);
-  }
+  std::optional<Duration> timeOfDay() override { return localTimeOfDay(); }
 
   Duration timeSuspended() override {
     timespec with{};

@@ -15,7 +15,7 @@ void add(std::vector<Change>& changes, ObjectId object, const std::vector<Proper
 }  // namespace
 
 std::vector<Change> modesetChanges(const DisplayRoute& route, ObjectId modeBlob,
-                                   ObjectId framebuffer) {
+                                   ObjectId framebuffer, CanvasOffset offset) {
   const FrameSize size = route.mode.size;
   const auto width = static_cast<std::uint64_t>(size.width);
   const auto height = static_cast<std::uint64_t>(size.height);
@@ -32,10 +32,10 @@ std::vector<Change> modesetChanges(const DisplayRoute& route, ObjectId modeBlob,
   addToPlane("FB_ID", framebuffer);
   addToPlane("CRTC_ID", crtc.id);
   addToPlane("rotation", 1);  // none, whatever another program left
-  addToPlane("SRC_X", 0);
-  addToPlane("SRC_Y", 0);
-  addToPlane("SRC_W", width << 16U);  // in 1/65536 px
-  addToPlane("SRC_H", height << 16U);
+  addToPlane("SRC_X", sourcePlace(offset.x));
+  addToPlane("SRC_Y", sourcePlace(offset.y));
+  addToPlane("SRC_W", sourcePlace(size.width));
+  addToPlane("SRC_H", sourcePlace(size.height));
   addToPlane("CRTC_X", 0);
   addToPlane("CRTC_Y", 0);
   addToPlane("CRTC_W", width);

@@ -10,25 +10,16 @@
 #include <utility>
 #include <vector>
 
-#include "hal/media/png_encoder.h"
 #include "hal/numbered_path.h"
 
 namespace pleinair::hal {
 namespace {
 
-bool endsInPng(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return ending == ".png";
-}
-
 /// Where pictures go.
 class PictureSink {
  public:
   virtual ~PictureSink() = default;
-  virtual Result<void> write(std::span<const std::uint8_t> png) = 0;
+  virtual Result<void> write(std::span<const std::uint8_t> bytes) = 0;
   virtual Result<void> finish() = 0;
 };
 
@@ -76,10 +67,10 @@ class NumberedPictures final : public PictureSink {
   NumberedPictures(NumberedPath names, PatternLock lock, FileSystem& files)
       : names_(std::move(names)), lock_(std::move(lock)), files_(files) {}
 
-  Result<void> write(std::span<const std::uint8_t> png) override {
+  Result<void> write(std::span<const std::uint8_t> bytes) override {
     Result<PendingFile> file = PendingFile::create(names_.at(next_), files_);
     if (!file) return tl::unexpected(file.error());
-    if (Result<void> written = file->write(png); !written) return written;
+    if (Result<void> written = file->write(bytes); !written) return written;
     ++next_;
     return file->publish(Durability::kUnsynced);  // one of many: the next is waiting
   }
@@ -97,14 +88,14 @@ class SinglePicture final : public PictureSink {
   SinglePicture(std::string subject, PendingFile file)
       : subject_(std::move(subject)), file_(std::move(file)) {}
 
-  Result<void> write(std::span<const std::uint8_t> png) override {
+  Result<void> write(std::span<const std::uint8_t> bytes) override {
     if (std::exchange(taken_, true)) {
       return tl::unexpected(Error{.kind = ErrorKind::kInvalidArgument,
                                   .subject = subject_,
                                   .problem = "holds one picture, and there are more",
                                   .remedy = "give a pattern such as out/%04d.png, or a folder"});
     }
-    return file_.write(png);
+    return file_.write(bytes);
   }
 
   Result<void> finish() override {
@@ -155,11 +146,12 @@ SinkResult openSink(const std::filesystem::path& path, FileSystem& files) {
     if (Result<void> made = makeFolder(path); !made) return tl::unexpected(made.error());
     return numbered(path / "%06d.png", files);
   }
-  if (!endsInPng(path)) {
-    return tl::unexpected(Error{.kind = ErrorKind::kInvalidArgument,
-                                .subject = path.string(),
-                                .problem = "is not the name of pictures that can be written",
-                                .remedy = "end it in .png, or give a folder"});
+  if (!writtenPictureKind(path)) {
+    return tl::unexpected(
+        Error{.kind = ErrorKind::kInvalidArgument,
+              .subject = path.string(),
+              .problem = "is not the name of pictures that can be written",
+              .remedy = "end it in " + writtenPictureEndings() + ", or give a folder"});
   }
   if (looksNumbered(path)) return numbered(path, files);
   Result<PendingFile> file = PendingFile::create(path, files);
@@ -169,8 +161,8 @@ SinkResult openSink(const std::filesystem::path& path, FileSystem& files) {
 
 class FramesOutput final : public MemoryOutput {
  public:
-  FramesOutput(std::filesystem::path path, FileSystem& files)
-      : path_(std::move(path)), files_(files) {}
+  FramesOutput(std::filesystem::path path, const PictureFileOptions& options, FileSystem& files)
+      : path_(std::move(path)), options_(options), files_(files) {}
 
   OutputIdentity identity() const override { return {.backend = "frames", .id = path_.string()}; }
 
@@ -184,9 +176,11 @@ class FramesOutput final : public MemoryOutput {
     }
     const FrameFormat format{
         .pixelFormat = PixelFormat::kRgb8, .size = request.size, .encoding = {}};
-    Result<libav::PngEncoder> encoder = libav::PngEncoder::open(format);
+    // Of folders: PNG.
+    const auto kind = writtenPictureKind(path_).value_or(PictureFileKind::kPng);
+    Result<std::unique_ptr<PictureEncoder>> encoder = openPictureEncoder(kind, format, options_);
     if (!encoder) return tl::unexpected(encoder.error());
-    encoder_.emplace(*std::move(encoder));
+    encoder_ = *std::move(encoder);
     SinkResult sink = openSink(path_, files_);
     if (!sink) return tl::unexpected(sink.error());
     sink_ = *std::move(sink);
@@ -195,9 +189,9 @@ class FramesOutput final : public MemoryOutput {
 
   Result<void> write(const ImageView& picture, Duration) override {
     assert(sink_ != nullptr);
-    const Result<std::vector<std::uint8_t>> png = encoder_->encode(picture);
-    if (!png) return tl::unexpected(png.error());
-    return sink_->write(*png);
+    const Result<std::vector<std::uint8_t>> bytes = encoder_->encode(picture);
+    if (!bytes) return tl::unexpected(bytes.error());
+    return sink_->write(*bytes);
   }
 
   Result<void> finish() override {
@@ -207,8 +201,9 @@ class FramesOutput final : public MemoryOutput {
 
  private:
   std::filesystem::path path_;
+  PictureFileOptions options_;
   FileSystem& files_;
-  std::optional<libav::PngEncoder> encoder_;
+  std::unique_ptr<PictureEncoder> encoder_;
   std::unique_ptr<PictureSink> sink_;
 };
 
@@ -216,15 +211,15 @@ bool isFramesTarget(const std::string& target) {
   const std::filesystem::path path(target);
   std::error_code ignored;
   return !target.empty() && (std::filesystem::is_directory(path, ignored) || !path.has_filename() ||
-                             !path.has_extension() || endsInPng(path));
+                             !path.has_extension() || writtenPictureKind(path).has_value());
 }
 
 }  // namespace
 
 OutputKind framesKind() {
   return {.name = "frames",
-          .help = "pictures: one .png, numbered ones, or a folder of them",
-          .forms = {"picture.png", "out/%04d.png", "folder/"},
+          .help = "pictures: one, numbered ones, or a folder of them",
+          .forms = {"picture.png", "picture.jpg", "picture.tif", "out/%04d.png", "folder/"},
           .traits = {.writesFiles = true},
           .options = {},
           .recognizes = isFramesTarget,
@@ -235,7 +230,13 @@ OutputKind framesKind() {
 }
 
 std::unique_ptr<MemoryOutput> openFramesOutput(std::filesystem::path path, FileSystem& files) {
-  return std::make_unique<FramesOutput>(std::move(path), files);
+  return openFramesOutput(std::move(path), {}, files);
+}
+
+std::unique_ptr<MemoryOutput> openFramesOutput(std::filesystem::path path,
+                                               const PictureFileOptions& options,
+                                               FileSystem& files) {
+  return std::make_unique<FramesOutput>(std::move(path), options, files);
 }
 
 }  // namespace pleinair::hal

@@ -14,6 +14,8 @@
 #include <unistd.h>
 
 #include "hal/outputs/movie/movie_writer.h"
+#include "hal/outputs/movie/sound_encoder.h"
+#include "hal/outputs/movie/sound_track.h"
 
 namespace pleinair::hal {
 namespace {
@@ -54,7 +56,7 @@ class MovieOutput final : public MemoryOutput {
 
  private:
   Result<std::unique_ptr<movie::MovieWriter>> openWriter(MovieKind kind);
-  Result<std::unique_ptr<movie::SoundTrack>> openSound(std::optional<movie::Container> container);
+  Result<std::unique_ptr<movie::SoundSource>> openSound(std::optional<movie::Container> container);
 
   std::filesystem::path path_;
   MovieOptions options_;
@@ -95,7 +97,14 @@ Result<OutputFormat> MovieOutput::start(const OutputRequest& request) {
   const auto format = formatFor(request, path_.string());
   if (!format) return tl::unexpected(format.error());
   format_ = *format;
+  format_.codec = options_.codec;
   format_.crf = options_.crf;
+  if (options_.codec == VideoCodec::kFfv1 && *kind == MovieKind::kMp4) {
+    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
+                                .subject = path_.string(),
+                                .problem = "cannot hold FFV1",
+                                .remedy = "end its name in .mkv"});
+  }
   Result<PendingFile> file = PendingFile::create(path_, files_);
   if (!file) return tl::unexpected(file.error());
   file_.emplace(*std::move(file));
@@ -114,22 +123,30 @@ Result<std::unique_ptr<movie::MovieWriter>> MovieOutput::openWriter(MovieKind ki
   const auto container = kind == MovieKind::kMp4 ? movie::Container::kMp4 : movie::Container::kMkv;
   auto sound = openSound(container);
   if (!sound) return tl::unexpected(sound.error());
-  return movie::openH264Writer(container, format_, path_.string(), *file_, *std::move(sound));
+  return movie::openCodedWriter(container, format_, path_.string(), *file_, *std::move(sound));
 }
 
-/// Null where there is none, or where the file cannot hold it, of which a notice tells.
-Result<std::unique_ptr<movie::SoundTrack>> MovieOutput::openSound(
+/// Null where there is none, or where the file holds none, of which a notice tells.
+Result<std::unique_ptr<movie::SoundSource>> MovieOutput::openSound(
     std::optional<movie::Container> container) {
   if (!options_.soundOf) return nullptr;
-  auto sound = movie::SoundTrack::open(*options_.soundOf, options_.soundFrom);
-  if (!sound || *sound == nullptr) return sound;
-  const AVCodecParameters& coding = (*sound)->coding();
-  if (container && movie::canHold(*container, coding)) return sound;
-  if (options_.onNotice) {
-    options_.onNotice(path_.string() + ": holds no sound coded as " +
-                      avcodec_get_name(coding.codec_id) +
-                      ", which is left out; an .mkv would hold it");
+  auto track = movie::SoundTrack::open(*options_.soundOf, options_.soundFrom);
+  if (!track) return tl::unexpected(track.error());
+  if (*track == nullptr) return nullptr;
+  const std::string coding = avcodec_get_name((*track)->coding().codec_id);
+  const auto notify = [this](const std::string& notice) {
+    if (options_.onNotice) options_.onNotice(path_.string() + ": " + notice);
+  };
+  if (!container) {
+    notify("holds no sound: that of the recording is left out; an .mkv would hold it");
+    return nullptr;
   }
+  if (movie::canHold(*container, (*track)->coding())) return track;
+  if (auto recoded = movie::recodeSound(*std::move(track))) {
+    notify("holds no sound coded as " + coding + ", which becomes AAC; an .mkv would keep it");
+    return recoded;
+  }
+  notify("holds no sound coded as " + coding + ", which is left out; an .mkv would hold it");
   return nullptr;
 }
 

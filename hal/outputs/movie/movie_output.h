@@ -13,29 +13,36 @@
 namespace pleinair::hal {
 
 /// A movie file; its ending chooses the kind:
-/// - .mp4: H.264 in fragmented MP4, readable up to where it broke off; times to 1 µs, with at most
+/// - .mp4: H.264 (or another codec of the options) in fragmented MP4, readable up to where it broke
+/// off; times to 1 µs, with at most
 ///   35 minutes between two pictures
-/// - .mkv: H.264 in Matroska; times to 1 µs
+/// - .mkv: the same in Matroska; times to 1 µs
 /// - .y4m: uncompressed; holds one frame rate only, so the times given to write() are dropped
 ///   and the nominal period (1/30 s where there is none) counts
 ///
 /// start() answers I420, limited range, BT.709 from 720 lines up, else BT.601 (tagged in MP4 and
-/// MKV), of the requested size. H.264 holds even sizes only: an odd last column or row is
+/// MKV), of the requested size. The codecs hold even sizes only: an odd last column or row is
 /// repeated once in the file. The same pictures give the same bytes on every machine with the same
-/// x264. Errors of start() also: kInvalidArgument (unknown ending), kUnsupported (no x264).
+/// x264. Errors of start() also: kInvalidArgument (unknown ending), kUnsupported (libav lacks the
+/// encoder; the container cannot hold the codec).
 std::unique_ptr<MemoryOutput> openMovieOutput(std::filesystem::path path,
                                               FileSystem& files = systemFiles());
 
-/// x264's constant rate factor: 0 … 51, less is better and larger. 18 shows no loss to the eye.
-inline constexpr double kDefaultCrf = 18;
+/// How .mp4 and .mkv code images: H.264 is played everywhere; HEVC and AV1 are smaller and slower;
+/// FFV1 (.mkv only) loses nothing of Y'CbCr 4:2:0.
+enum class VideoCodec { kH264, kHevc, kAv1, kFfv1 };
 
 struct MovieOptions {
-  double crf = kDefaultCrf;  ///< of .mp4 and .mkv
-  /// A recording whose sound is kept, as it is coded: its time 0 is the first frame at or after
+  VideoCodec codec = VideoCodec::kH264;
+  /// The encoder's constant rate factor: 0 … 51 (AV1: 63), less is better and larger. Unset: 18 for
+  /// H.264, 22 for HEVC, 26 for AV1, which show no loss to the eye. FFV1 has none.
+  std::optional<double> crf = std::nullopt;
+  /// A recording whose sound is kept, as it is coded where the container can hold that, else as
+  /// AAC: its time 0 is the first frame at or after
   /// `soundFrom`. Nothing where it has none.
   std::optional<std::filesystem::path> soundOf = std::nullopt;
   Duration soundFrom{0};
-  /// Called in start() with a line where the recording has sound that the file cannot hold.
+  /// Called in start() with a line where the recording has sound that is coded anew or left out.
   std::function<void(const std::string&)> onNotice = nullptr;
 };
 

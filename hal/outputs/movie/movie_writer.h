@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -10,7 +11,7 @@
 #include "hal/image.h"
 #include "hal/output.h"
 #include "hal/outputs/movie/movie_output.h"
-#include "hal/outputs/movie/sound_track.h"
+#include "hal/outputs/movie/sound_source.h"
 #include "hal/pending_file.h"
 
 namespace pleinair::hal::movie {
@@ -29,14 +30,16 @@ enum class Container { kMp4, kMkv };
 struct MovieFormat {
   FrameFormat frame;     ///< I420
   Duration framePeriod;  ///< nominal
-  double crf = kDefaultCrf;
+  VideoCodec codec = VideoCodec::kH264;
+  std::optional<double> crf;
 };
 
-/// `sound` is stored as it is, in step with the images, and ends with them; null for a silent
-/// movie. Precondition: the container can hold it (canHold()). `file` must outlive the writer.
-Result<std::unique_ptr<MovieWriter>> openH264Writer(Container container, const MovieFormat& format,
-                                                    const std::string& subject, PendingFile& file,
-                                                    std::unique_ptr<SoundTrack> sound);
+/// An .mp4 or .mkv. `sound` is stored as it is, in step with the images, and ends with them; null
+/// for a silent movie. Precondition: the container can hold it (canHold()). `file` must outlive the
+/// writer.
+Result<std::unique_ptr<MovieWriter>> openCodedWriter(Container container, const MovieFormat& format,
+                                                     const std::string& subject, PendingFile& file,
+                                                     std::unique_ptr<SoundSource> sound);
 /// Whether a container can hold a coding of sound without a change.
 bool canHold(Container container, const AVCodecParameters& sound);
 /// Takes the bytes of a file in their order.

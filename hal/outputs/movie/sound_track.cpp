@@ -2,20 +2,13 @@
 
 #include <utility>
 
+#include "hal/media/demuxing.h"
 #include "hal/media/errors.h"
 
 namespace pleinair::hal::movie {
 namespace {
 
 constexpr AVRational kSoundClock = {1, 1'000'000'000};
-
-int refuseToOpen(AVFormatContext*, AVIOContext**, const char*, int, AVDictionary**) {
-  return AVERROR(EPERM);
-}
-
-std::int64_t startOf(const AVStream& stream) {
-  return stream.start_time == AV_NOPTS_VALUE ? 0 : stream.start_time;
-}
 
 }  // namespace
 
@@ -38,15 +31,10 @@ bool SoundTrack::openStreams() {
   const libav::LogCapture log;
   const AVInputFormat* format = nullptr;
   if (av_probe_input_buffer2(io_.context(), &format, "", nullptr, 0, 0) < 0) return false;
-  AVFormatContext* context = avformat_alloc_context();
-  if (context == nullptr) throw std::bad_alloc();
-  context->pb = io_.context();
-  context->io_open = &refuseToOpen;
-  context->protocol_whitelist = av_strdup("none");
-  context->max_streams = 64;
+  AVFormatContext* context = libav::makeDemuxer(io_.context());
   if (avformat_open_input(&context, "", format, nullptr) < 0) return false;
   context_.reset(context);
-  if (avformat_find_stream_info(context_.get(), nullptr) < 0) return false;
+  if (libav::findStreamInfo(*context_) < 0) return false;
   const int video = av_find_best_stream(context_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   if (video < 0) return false;
   const int sound = av_find_best_stream(context_.get(), AVMEDIA_TYPE_AUDIO, -1, video, nullptr, 0);
@@ -63,9 +51,9 @@ bool SoundTrack::openStreams() {
 /// The painting begins at the first video frame at or after `from`, which is found without
 /// decoding: the earliest such time among the packets that are decoded before it could be shown.
 void SoundTrack::findOrigin(Duration from) {
-  std::int64_t first = startOf(*video_);
+  std::int64_t first = libav::timeInStream(*video_, Duration::zero());
   if (from > Duration::zero()) {
-    const std::int64_t wanted = first + av_rescale_q(from.count(), kSoundClock, video_->time_base);
+    const std::int64_t wanted = libav::timeInStream(*video_, from);
     av_seek_frame(context_.get(), video_->index, wanted, AVSEEK_FLAG_BACKWARD);
     std::optional<std::int64_t> found;
     while (av_read_frame(context_.get(), packet_.get()) >= 0) {
@@ -90,7 +78,7 @@ bool SoundTrack::read() {
     av_packet_unref(packet_.get());
     if (av_read_frame(context_.get(), packet_.get()) < 0) break;
     if (packet_->stream_index != stream_->index || packet_->pts == AV_NOPTS_VALUE) continue;
-    packet_->pts -= origin_;
+    packet_->pts = libav::timeBetween(packet_->pts, origin_);
     packet_->dts = packet_->pts;  // sound is stored in the order of its times
     if (packet_->pts >= 0) return true;
   }

@@ -9,25 +9,22 @@
 #include "hal/error.h"
 #include "hal/media/file_input.h"
 #include "hal/media/handles.h"
+#include "hal/outputs/movie/sound_source.h"
 
 namespace pleinair::hal::movie {
 
 /// The sound of a recording, packet by packet as it is stored, on the time of its painting: 0 is
 /// the first video frame at or after `from`. One thread.
-class SoundTrack {
+class SoundTrack final : public SoundSource {
  public:
   /// Nothing where the recording has no sound, or is no movie. Errors: as libav::FileInput::open.
   static Result<std::unique_ptr<SoundTrack>> open(const std::filesystem::path& recording,
                                                   Duration from);
 
-  /// How the stream is coded; its codec's name is avcodec_get_name().
-  const AVCodecParameters& coding() const { return *stream_->codecpar; }
-  AVRational timeBase() const { return stream_->time_base; }
-
-  /// The next packet that begins before `end`, with its times on the painting's time, in
-  /// timeBase(); null at the end of the sound, or where the next one begins later. Packets from
-  /// before 0 are left out. Valid until the next call.
-  AVPacket* nextBefore(Duration end);
+  const AVCodecParameters& coding() const override { return *stream_->codecpar; }
+  AVRational timeBase() const override { return stream_->time_base; }
+  AVPacket* nextBefore(Duration end) override;
+  bool hasEnded() const override { return hasEnded_ && !isPending_; }
 
  private:
   explicit SoundTrack(libav::DemuxerIo io) : io_(std::move(io)) {}

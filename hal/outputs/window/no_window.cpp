@@ -3,7 +3,7 @@
 
 namespace pleinair::hal {
 
-Result<std::unique_ptr<Window>> openWindow() {
+Result<std::unique_ptr<Window>> openWindow(WindowSettings /*settings*/) {
   return tl::unexpected(
       Error{.kind = ErrorKind::kUnsupported,
             .subject = "window",

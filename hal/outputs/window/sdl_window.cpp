@@ -62,7 +62,8 @@ std::optional<Refresh> refreshOf(SDL_Window* window) {
 
 class SdlWindow final : public Window {
  public:
-  explicit SdlWindow(SdlVideo video) : video_(std::move(video)) {}
+  SdlWindow(SdlVideo video, WindowSettings settings)
+      : video_(std::move(video)), settings_(std::move(settings)) {}
   ~SdlWindow() override {
     if (display_connection::isLost()) abandon();
   }
@@ -72,6 +73,7 @@ class SdlWindow final : public Window {
   OutputIdentity identity() const override { return {.backend = "window", .id = "window"}; }
   Result<OutputFormat> start(const OutputRequest& request) override;
   Result<void> write(const ImageView& picture, Duration time) override;
+  Result<OutputFormat> reconfigure(const OutputRequest& request) override;
   Result<void> finish() override { return {}; }
 
   std::vector<WindowEvent> takeEvents() override;
@@ -79,10 +81,16 @@ class SdlWindow final : public Window {
   Result<void> redraw() override;
   void setTitle(const std::string& title) override;
   void setFullScreen(bool on) override;
+  void setClipboard(const std::string& text) override;
   Result<Image> shown() override;
 
  private:
   Result<void> open(FrameSize picture);
+  Result<void> makeTexture(FrameSize picture);
+  /// The size that a picture of `size` is seen in.
+  FrameSize turned(FrameSize size) const {
+    return settings_.quarterTurns % 2 == 0 ? size : FrameSize{size.height, size.width};
+  }
   Result<void> draw();
   /// Fills the screen without a window manager, or goes back to the place before.
   void fillScreen(bool on);
@@ -98,6 +106,8 @@ class SdlWindow final : public Window {
 
   FrameFormat format_;
   SdlVideo video_;
+  WindowSettings settings_;
+  bool isFullScreen_ = false;
   WindowHandle window_;
   RendererHandle renderer_;
   TextureHandle texture_;
@@ -107,40 +117,92 @@ class SdlWindow final : public Window {
   std::vector<WindowEvent> events_;
 };
 
+Error unacceptedSize() {
+  return {.kind = ErrorKind::kUnsupported,
+          .subject = kSubject,
+          .problem = "cannot take this size",
+          .remedy = "use 1 to 8192 px a side and at most 64 Mpx"};
+}
+
+/// The number of the display that is asked for, from 0.
+Result<int> displayOf(const std::string& wanted) {
+  if (wanted == "auto") return 0;
+  std::string known;
+  const int count = SDL_GetNumVideoDisplays();
+  for (int i = 0; i < count; ++i) {
+    const char* const name = SDL_GetDisplayName(i);
+    const std::string text = name == nullptr ? "" : name;
+    if (wanted == std::to_string(i + 1) || text.find(wanted) != std::string::npos) return i;
+    known += (known.empty() ? "" : ", ") + std::to_string(i + 1) + " (" + text + ")";
+  }
+  return tl::unexpected(Error{.kind = ErrorKind::kNotFound,
+                              .subject = kSubject,
+                              .problem = "there is no display " + wanted,
+                              .remedy = "give auto, or one of " + known});
+}
+
 Result<OutputFormat> SdlWindow::start(const OutputRequest& request) {
   assert(window_ == nullptr && SdlVideo::isOnItsThread());
-  if (!isAcceptedSize(request.size)) {
-    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
-                                .subject = kSubject,
-                                .problem = "cannot take this size",
-                                .remedy = "use 1 to 8192 px a side and at most 64 Mpx"});
-  }
+  if (!isAcceptedSize(request.size)) return tl::unexpected(unacceptedSize());
   format_ = {.pixelFormat = PixelFormat::kRgba8, .size = request.size};
   if (Result<void> opened = open(request.size); !opened) return tl::unexpected(opened.error());
+  if (settings_.isFullScreen) setFullScreen(true);
+  if (settings_.hidesCursor) SDL_ShowCursor(SDL_DISABLE);
+  if (!settings_.takesKeys) SDL_SetWindowKeyboardGrab(window_.get(), SDL_TRUE);
+  return OutputFormat{.frame = format_, .refresh = refreshOf(window_.get())};
+}
+
+Result<OutputFormat> SdlWindow::reconfigure(const OutputRequest& request) {
+  assert(isStarted());
+  if (display_connection::isLost()) return tl::unexpected(displayLost());
+  if (!isAcceptedSize(request.size)) return tl::unexpected(unacceptedSize());
+  if (Result<void> made = makeTexture(request.size); !made) return tl::unexpected(made.error());
+  format_.size = request.size;
+  hasPicture_ = false;
+  if (!isFullScreen_) {
+    const int display = std::max(0, SDL_GetWindowDisplayIndex(window_.get()));
+    SDL_Rect room{.x = 0, .y = 0, .w = request.size.width, .h = request.size.height};
+    SDL_GetDisplayUsableBounds(display, &room);
+    const FrameSize size = window::openingSize(turned(request.size), {room.w, room.h});
+    const auto centred =
+        static_cast<int>(SDL_WINDOWPOS_CENTERED_DISPLAY(static_cast<unsigned>(display)));
+    SDL_SetWindowSize(window_.get(), size.width, size.height);
+    SDL_SetWindowPosition(window_.get(), centred, centred);
+  }
   return OutputFormat{.frame = format_, .refresh = refreshOf(window_.get())};
 }
 
 Result<void> SdlWindow::open(FrameSize picture) {
+  const Result<int> display = displayOf(settings_.display);
+  if (!display) return tl::unexpected(display.error());
   SDL_Rect room{.x = 0, .y = 0, .w = picture.width, .h = picture.height};
-  SDL_GetDisplayUsableBounds(0, &room);
-  const FrameSize size = window::openingSize(picture, {room.w, room.h});
+  SDL_GetDisplayUsableBounds(*display, &room);
+  const FrameSize size = window::openingSize(turned(picture), {room.w, room.h});
   constexpr auto kFlags = SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI;
-  window_.reset(SDL_CreateWindow("pleinair", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
-                                 size.width, size.height, kFlags));
+  const auto centred =
+      static_cast<int>(SDL_WINDOWPOS_CENTERED_DISPLAY(static_cast<unsigned>(*display)));
+  window_.reset(SDL_CreateWindow("pleinair", centred, centred, size.width, size.height, kFlags));
   if (window_ == nullptr) return tl::unexpected(failure(ErrorKind::kIo, "cannot open"));
   display_connection::watch(window_.get());
   SDL_SetWindowData(window_.get(), kSelf, this);
   renderer_ = makeRenderer(window_.get());
   if (renderer_ == nullptr) return tl::unexpected(failure(ErrorKind::kIo, "cannot draw"));
-  texture_.reset(SDL_CreateTexture(renderer_.get(), SDL_PIXELFORMAT_RGBA32,
-                                   SDL_TEXTUREACCESS_STREAMING, picture.width, picture.height));
-  if (texture_ == nullptr) {
+  if (Result<void> made = makeTexture(picture); !made) return made;
+  return draw();
+}
+
+Result<void> SdlWindow::makeTexture(FrameSize picture) {
+  TextureHandle texture(SDL_CreateTexture(renderer_.get(), SDL_PIXELFORMAT_RGBA32,
+                                          SDL_TEXTUREACCESS_STREAMING, picture.width,
+                                          picture.height));
+  if (texture == nullptr) {
     return tl::unexpected(
         failure(ErrorKind::kUnsupported, "cannot take this size", "choose a smaller --size"));
   }
-  SDL_SetTextureBlendMode(texture_.get(), SDL_BLENDMODE_NONE);
-  SDL_SetTextureScaleMode(texture_.get(), SDL_ScaleModeLinear);
-  return draw();
+  SDL_SetTextureBlendMode(texture.get(), SDL_BLENDMODE_NONE);
+  SDL_SetTextureScaleMode(texture.get(), SDL_ScaleModeLinear);
+  texture_ = std::move(texture);
+  return {};
 }
 
 FrameSize SdlWindow::pixelSize() const {
@@ -160,9 +222,17 @@ Result<void> SdlWindow::draw() {
   if (SDL_RenderClear(renderer_.get()) != 0) {
     return tl::unexpected(failure(ErrorKind::kDeviceLost, "cannot draw"));
   }
-  const window::Area area = window::letterBox(format_.size, pixelSize());
+  const window::Area area =
+      window::turnedLetterBox(format_.size, pixelSize(), settings_.quarterTurns);
   const SDL_Rect box{.x = area.x, .y = area.y, .w = area.size.width, .h = area.size.height};
-  if (hasPicture_ && SDL_RenderCopy(renderer_.get(), texture_.get(), nullptr, &box) != 0) {
+  const auto flip = settings_.isMirrored ? SDL_FLIP_HORIZONTAL : SDL_FLIP_NONE;
+  const bool isPlain = settings_.quarterTurns == 0 && !settings_.isMirrored;
+  const auto copy = [&] {
+    if (isPlain) return SDL_RenderCopy(renderer_.get(), texture_.get(), nullptr, &box);
+    return SDL_RenderCopyEx(renderer_.get(), texture_.get(), nullptr, &box,
+                            90.0 * settings_.quarterTurns, nullptr, flip);
+  };
+  if (hasPicture_ && copy() != 0) {
     return tl::unexpected(failure(ErrorKind::kDeviceLost, "cannot draw"));
   }
   caption_.draw(renderer_.get(), pixelScale());
@@ -238,7 +308,7 @@ void SdlWindow::route(const SDL_Event& event) {
     // Without the focus a key is nobody's: the one that asks takes it.
     SdlWindow* const self = named == nullptr ? this : started(named);
     std::string name = window::keyName(event.key.keysym);
-    if (name.empty() || self == nullptr) return;
+    if (name.empty() || self == nullptr || !self->settings_.takesKeys) return;
     const bool shift = (event.key.keysym.mod & KMOD_SHIFT) != 0;
     self->events_.emplace_back(
         KeyPressed{.name = std::move(name), .shift = shift, .isRepeat = event.key.repeat != 0});
@@ -248,7 +318,7 @@ void SdlWindow::route(const SDL_Event& event) {
 void SdlWindow::accept(const SDL_WindowEvent& event) {
   switch (event.event) {
     case SDL_WINDOWEVENT_CLOSE:
-      events_.emplace_back(WindowClosed{});
+      if (settings_.takesKeys) events_.emplace_back(WindowClosed{});
       break;
     case SDL_WINDOWEVENT_SIZE_CHANGED:
       events_.emplace_back(WindowResized{pixelSize()});
@@ -263,7 +333,8 @@ void SdlWindow::accept(const SDL_WindowEvent& event) {
 
 void SdlWindow::setCaption(const std::string& text, double opacity) {
   assert(SdlVideo::isOnItsThread());
-  if (!display_connection::isLost()) caption_.set(text, opacity);
+  if (display_connection::isLost() || !settings_.takesKeys) return;
+  caption_.set(text, opacity);
 }
 
 void SdlWindow::setTitle(const std::string& title) {
@@ -282,7 +353,13 @@ void SdlWindow::setFullScreen(bool on) {
   } else {
     fillScreen(on);  // SDL would believe that it did, and show a part of the picture
   }
-  SDL_ShowCursor(on ? SDL_DISABLE : SDL_ENABLE);
+  isFullScreen_ = on;
+  SDL_ShowCursor(on || settings_.hidesCursor ? SDL_DISABLE : SDL_ENABLE);
+}
+
+void SdlWindow::setClipboard(const std::string& text) {
+  assert(isStarted());
+  if (!display_connection::isLost()) SDL_SetClipboardText(text.c_str());
 }
 
 void SdlWindow::fillScreen(bool on) {
@@ -298,10 +375,10 @@ void SdlWindow::fillScreen(bool on) {
 
 }  // namespace
 
-Result<std::unique_ptr<Window>> openWindow() {
+Result<std::unique_ptr<Window>> openWindow(WindowSettings settings) {
   Result<SdlVideo> video = SdlVideo::open();
   if (!video) return tl::unexpected(std::move(video.error()));
-  return std::make_unique<SdlWindow>(*std::move(video));
+  return std::make_unique<SdlWindow>(*std::move(video), std::move(settings));
 }
 
 }  // namespace pleinair::hal

@@ -21,11 +21,24 @@ struct WindowResized {
 };
 using WindowEvent = std::variant<KeyPressed, WindowClosed, WindowResized>;
 
+/// How a window stands on its desktop, and what people at it may do: the keys of [output.window].
+struct WindowSettings {
+  bool isFullScreen = false;     ///< from the start
+  std::string display = "auto";  ///< or a number from 1, or a part of a display's name
+  int quarterTurns = 0;          ///< clockwise, of pictures
+  bool isMirrored = false;       ///< pictures, left and right, before they are turned
+  /// Whether keys and the closing of the window are events; else the keyboard is kept from the
+  /// desktop, too, and captions are not shown.
+  bool takesKeys = true;
+  bool hidesCursor = false;  ///< always; else in full screen only
+  friend bool operator==(const WindowSettings&, const WindowSettings&) = default;
+};
+
 /// A window on a desktop: the last picture, scaled to fit, with black bars where the shapes differ.
 /// All of it, over all windows of the process, on one thread, which is asserted.
 ///
 /// start() shows it in the picture's size where that fits the screen, and answers RGBA8 and the
-/// period of the screen's refresh.
+/// period of the screen's refresh. Errors of start() also: kNotFound (no such display; lists them).
 class Window : public MemoryOutput {
  public:
   /// The events since the last call, oldest first. To be called several times a second; otherwise
@@ -42,6 +55,8 @@ class Window : public MemoryOutput {
 
   virtual void setTitle(const std::string& title) = 0;
   virtual void setFullScreen(bool on) = 0;
+  /// Puts a text on the desktop's clipboard, where the window keeps it as long as it lives.
+  virtual void setClipboard(const std::string& text) = 0;
 
   /// The content of the window as RGB8, drawn again for this call. Errors: kDeviceLost.
   virtual Result<Image> shown() = 0;
@@ -49,7 +64,7 @@ class Window : public MemoryOutput {
 
 /// A window through SDL, on the display that the environment names; start() shows it. Errors:
 /// kNotFound (there is no display), kUnsupported (this build has no window).
-Result<std::unique_ptr<Window>> openWindow();
+Result<std::unique_ptr<Window>> openWindow(WindowSettings settings = {});
 
 /// "window".
 OutputKind windowKind();

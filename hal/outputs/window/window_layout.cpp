@@ -29,6 +29,15 @@ Area letterBox(FrameSize picture, FrameSize window) {
       .x = (window.width - size.width) / 2, .y = (window.height - size.height) / 2, .size = size};
 }
 
+Area turnedLetterBox(FrameSize picture, FrameSize window, int quarterTurns) {
+  if (quarterTurns % 2 == 0) return letterBox(picture, window);
+  const Area seen = letterBox({picture.height, picture.width}, window);
+  const FrameSize size{seen.size.height, seen.size.width};
+  return {.x = seen.x + (seen.size.width - size.width) / 2,
+          .y = seen.y + (seen.size.height - size.height) / 2,
+          .size = size};
+}
+
 FrameSize openingSize(FrameSize picture, FrameSize room) {
   constexpr int kMinSide = 240;  // less is hard to find on a screen
   const int times = std::max(1, kMinSide / std::max(picture.width, picture.height));

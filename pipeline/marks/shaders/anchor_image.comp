@@ -59,43 +59,49 @@ vec2 seenPart(vec2 displacement, vec2 px) {
   return inverse(seen + mat2(least)) * (seen * displacement);
 }
 
+// The motion of an anchor of the camera image. Each source is asked at one place of the text: what a
+// compiler inlines twice, it has no registers for.
+//
 // A mover moves as dense flow says where its texture shows it: it is not still, and the image's
 // homography is the background's. Its plain parts, and those along an edge, go with the others.
-Moved moverMotionAt(vec2 px, float object) {
-  Moved flowed = byFlow(px);
-  bool isKnown = flowed.error < kMaxFlowError;
-  vec2 own;
-  if (!findMoverMotion(px + flowed.displacement, own)) {
-    return isKnown ? flowed : imageMotionAt(px, object, false);
-  }
-  const float kError = 1.0;  // px
-  if (!restsWithCamera) own += byPicture(px, false).displacement;
-  if (isKnown) own += seenPart(flowed.displacement - own, px + own);
-  return Moved(own, isKnown ? flowed.jacobian : kNoTurn, kError, kSourceFlow);
-}
-
+//
 // The background moves as one; a mover's motion must not carry it along.
-Moved backgroundMotionAt(vec2 px, float object, bool isBesideMover) {
-  if (restsWithCamera && object == 0.0) return Moved(vec2(0.0), kNoTurn, known.w, kSourcePicture);
-  if (!isBesideMover) return imageMotionAt(px, object, false);
+Moved measuredAt(vec2 px, float object, bool isOnMover, bool isBesideMover, Moved flowed,
+                 float restError) {
+  bool isFlowKnown = flowed.error < kMaxFlowError;
+  vec2 own;
+  bool hasOwn = isOnMover && findMoverMotion(px + flowed.displacement, own);
+  if (isOnMover && !hasOwn && isFlowKnown) return flowed;
+  bool isResting = !isOnMover && restsWithCamera && object == 0.0;
+  if (isResting) return Moved(vec2(0.0), kNoTurn, known.w, kSourcePicture);
+
+  bool isPlain = isOnMover ? !hasOwn : !isBesideMover;  // like every place of the image
+  Moved plane = nothingKnown();
+  if (object == 0.0 && !hasOwn) plane = byPlanes(px, false);
+  if (isPlain) return bestOf(px, object, false, flowed, restError, plane);
   Moved whole = byPicture(px, false);
+  if (hasOwn) {
+    const float kError = 1.0;  // px
+    if (!restsWithCamera) own += whole.displacement;
+    if (isFlowKnown) own += seenPart(flowed.displacement - own, px + own);
+    return Moved(own, isFlowKnown ? flowed.jacobian : kNoTurn, kError, kSourceFlow);
+  }
   if (object != 0.0) return whole;
   // Before the camera, a plane may be much nearer than most of the image.
-  Moved plane = byPlanes(px, false);
   whole.error = length(vec2(whole.error, contradicted(whole, plane.displacement, plane.error)));
   return better(whole, plane);
 }
 
 // On a real thing: the motion of its surface or the measured one. Where both are far apart, the less
 // certain one errs by the difference. A mover before the thing says nothing about it.
-Moved betterOnSurface(Moved measured, Moved surface, vec2 px, bool isBesideMover) {
+Moved betterOnSurface(Moved measured, Moved surface, bool isBesideMover, Moved flowed,
+                      float restError) {
   measured.error =
       length(vec2(measured.error, contradicted(measured, surface.displacement, surface.error)));
   if (!isBesideMover) {
-    Moved flowed = byFlow(px);
     surface.error =
         length(vec2(surface.error, contradicted(surface, flowed.displacement, flowed.error)));
-    surface.error = length(vec2(surface.error, contradicted(surface, vec2(0.0), stillError(px))));
+    surface.error = length(vec2(surface.error, contradicted(surface, vec2(0.0), restError)));
   }
   surface.error = max(surface.error, kMinError);
   return better(measured, surface);
@@ -162,19 +168,20 @@ void main() {
   }
   bool isOnMover = (state & kMover) != 0u;
   bool wasCovered = (state & kCovered) != 0u;
-  Moved moved;
+  uint thing = object;  // that the camera image shows here
   if (isOnMover) {
     ivec2 there = pixelAt(px);
     uint before = there.x >= 0 ? objectOf(texelFetch(ids, there, 0).r) : 0u;
-    moved = moverMotionAt(px, isReal(before) ? float(before) : 0.0);
-  } else {
-    bool isBesideMover = known.z != 0.0 && isNearMover(px);
-    moved = backgroundMotionAt(px, float(object), isBesideMover);
-    if (onSurfaces && (state & kSourceBits) == kSourceSurface && isReal(object)) {
-      Moved surfaceMoved = Moved(anchors[slot].displacement, anchors[slot].jacobian,
-                                 anchors[slot].error, kSourceSurface);
-      moved = betterOnSurface(moved, surfaceMoved, px, isBesideMover);
-    }
+    thing = isReal(before) ? before : 0u;
+  }
+  bool isBesideMover = !isOnMover && known.z != 0.0 && isNearMover(px);
+  Moved flowed = byFlow(px);
+  float restError = stillError(px);
+  Moved moved = measuredAt(px, float(thing), isOnMover, isBesideMover, flowed, restError);
+  if (!isOnMover && onSurfaces && (state & kSourceBits) == kSourceSurface && isReal(object)) {
+    Moved surfaceMoved = Moved(anchors[slot].displacement, anchors[slot].jacobian,
+                               anchors[slot].error, kSourceSurface);
+    moved = betterOnSurface(moved, surfaceMoved, isBesideMover, flowed, restError);
   }
   px += moved.displacement;
   bool isGone = any(lessThan(px, vec2(-margin))) || any(greaterThan(px, fullSize + margin));

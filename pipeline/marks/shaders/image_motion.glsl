@@ -65,8 +65,7 @@ Moved byPlanes(vec2 px, bool backward) {
   Moved moved = nothingKnown();
   int count = int(known.x);
   float nearest = 0.0;
-  for (int i = 0; i < kMaxPlanes; ++i) {
-    if (i >= count) break;
+  for (int i = 0; i < count; ++i) {
     if (planes[i].turnsAbout.w == 0.0) continue;
     vec3 shift = planeShift(planes[i], px, backward);
     if (shift.z == 0.0 || (nearest > 0.0 && shift.z >= nearest)) continue;
@@ -118,8 +117,7 @@ Neighbours nearestFeatures(vec2 px, float layer, bool backward) {
   vec3 away = vec3(1.0e12);  // squared, nearest first
   ivec3 which = ivec3(-1);
   int count = int(known.y);
-  for (int i = 0; i < kMaxFeatures; ++i) {
-    if (i >= count) break;
+  for (int i = 0; i < count; ++i) {
     vec2 apart = (backward ? features[i].places.zw : features[i].places.xy) - px;
     float d = features[i].about.y == layer ? dot(apart, apart) : 1.0e12;
     bool first = d < away.x;
@@ -253,10 +251,10 @@ Moved better(Moved a, Moved b) {
   return a;
 }
 
-// `layer`: the real object that px is on, or 0.
-Moved imageMotionAt(vec2 px, float layer, bool backward) {
-  Moved flowed = byFlow(px);
-  float restError = stillError(px);
+// `layer`: the real object that px is on, or 0. Takes what is known at px by dense flow, the error of
+// rest there and, where layer is 0, by planes.
+Moved bestOf(vec2 px, float layer, bool backward, Moved flowed, float restError,
+                    Moved plane) {
   Moved best = better(nothingKnown(), Moved(vec2(0.0), kNoTurn, restError, kSourceStill));
   best = better(best, flowed);
 
@@ -290,11 +288,16 @@ Moved imageMotionAt(vec2 px, float layer, bool backward) {
   best = better(best, whole);
 
   if (layer == 0.0) {
-    Moved plane = byPlanes(px, backward);
     plane.error = length(vec2(plane.error, contradicted(plane, flowed.displacement, flowed.error)));
     plane.error = length(vec2(plane.error, contradicted(plane, vec2(0.0), restError)));
     best = better(best, plane);
   }
   best.error = max(best.error, kMinError);
   return best;
+}
+
+Moved imageMotionAt(vec2 px, float layer, bool backward) {
+  Moved plane = nothingKnown();
+  if (layer == 0.0) plane = byPlanes(px, backward);
+  return bestOf(px, layer, backward, byFlow(px), stillError(px), plane);
 }

@@ -1,15 +1,15 @@
 // Purpose: compares each cell of the picture with the remembered background and with the previous
 //          frame, and carries its label along the motion (marks/motion_layers.h).
-// Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's; picture (ArFrame::colour); lastPicture,
-//          background, labels: the previous frame's, if hasPast; motion: MotionField's field; mover_motion.glsl's, of the previous frame, and
-//          motionScale, this step over that; noise: sigma of a cell, in [0, 1].
+// Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's; picture (ArFrame::camera());
+//          lastPicture, background, labels: the previous frame's, if hasPast; motion: MotionField's
+//          field; mover_motion.glsl's, of the previous frame, and motionScale, this step over that;
+//          noise: sigma of a cell, in [0, 1].
 // Outputs: candidates RGBA8: how surely it is other content than the background, the carried label,
 //          luma now and of the background. evidence RGBA16F: whether it has changed since the
-//          previous frame, or -1 on models, or -2 where another real thing's model was before;
-//          carried rest, carried maturity (below 0: a mover
-//          has left), carried freshness.
-//          pictureNow RGBA8: the picture in cells, and in A the real thing that it shows. otherCells: how many cells are surely other
-//          content. One invocation per cell.
+//          previous frame, or -2 where another real thing's model was before;
+//          carried rest, carried maturity (below 0: a mover has left), carried freshness.
+//          pictureNow RGBA8: the picture in cells, and in A the real thing that it shows.
+//          otherCells: how many cells are surely other content. One invocation per cell.
 // Precision: highp.
 #include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/marks/shaders/layer_blocks.glsl"
@@ -38,6 +38,8 @@ const float kReach = 2.5;  // px
 const float kMovedPx = 0.6;  // less may be an error of the flow, at any rate of frames
 const float kLeastUnlike = 0.02;  // of colour
 const float kSeenOther = 0.6;
+// s, at most, of parts of a mover that moves: less than what makes any join the background.
+const float kCarriedRest = 0.3;
 
 // How surely the colour is the background's in a shadow, or in a little more light.
 float shadeOf(vec3 now, vec3 known) {
@@ -72,7 +74,6 @@ void main() {
   vec2 px = (vec2(cell) + 0.5) * kLayerCellPixels;
   vec3 now = textureLod(picture, px / fullSize, 0.0).rgb;
   uint object = objectAt(px);
-  bool isModel = isVirtual(object);
   float thing = thingOf(object);
   imageStore(pictureNow, cell, vec4(now, thing / 255.0));
   vec2 shift = backgroundShift(px);
@@ -83,9 +84,9 @@ void main() {
     ivec2 there = min(ivec2(from / kLayerCellPixels), textureSize(lastPicture, 0) - 1);
     isAnother = abs(255.0 * texelFetch(lastPicture, there, 0).a - thing) > 0.5;
   }
-  if (!hasPast || isModel || isAnother || !isInPicture(from)) {
+  if (!hasPast || isAnother || !isInPicture(from)) {
     imageStore(candidates, cell, vec4(0.0, 0.0, luma, luma));
-    imageStore(evidence, cell, vec4(isModel ? -1.0 : isAnother ? -2.0 : 0.0, 0.0, 0.0, 0.0));
+    imageStore(evidence, cell, vec4(isAnother ? -2.0 : 0.0, 0.0, 0.0, 0.0));
     return;
   }
   // While the camera moves, colours are compared with all those around.
@@ -125,7 +126,7 @@ void main() {
     vec4 carried = labelBefore(back);
     isCarried = carried.r > 0.5;
     if (isCarried) {
-      label = vec4(1.0, label.g, 0.0, max(label.a, carried.a));
+      label = vec4(1.0, label.g, min(label.b, kCarriedRest), max(label.a, carried.a));
       if (isLikeMover(now, back, unlike)) other = max(other, kSeenOther);
     }
   }

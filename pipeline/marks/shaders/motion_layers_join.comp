@@ -3,7 +3,10 @@
 // Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's; candidates, evidence
 //          (motion_layers.comp); ground (motion_layers_ground.comp); picture: this frame's, in
 //          cells; background: the previous frame's, if hasPast; restSeconds: after so long a mover
-//          that rests joins the background; freshSeconds: freshness falls to 0 within so long.
+//          that rests joins the background, frontRestSeconds: if it is before a model; front: the
+//          previous frame's (front_movers.comp), if hasFront; isDoubted: what is remembered may be
+//          a mover that stood there when the camera began to look; freshSeconds: freshness falls to 0
+//          within so long.
 // Outputs: labels RGBA16F: 1 on movers, else 0; freshness: 1 where the label has just changed,
 //          falling to 0; rest and maturity, s, the latter below 0 where a mover has left.
 //          backgroundNow RGBA16F: its mean colour, and the frames in the mean, 0 if it was never
@@ -21,17 +24,25 @@ uniform highp sampler2D evidence;
 uniform highp sampler2D picture;
 uniform highp sampler2D background;
 uniform highp sampler2D ground;
+uniform highp sampler2D front;
 uniform bool hasPast;
+uniform bool hasFront;
+uniform bool isDoubted;
+uniform float frontRestSeconds;
 uniform float restSeconds;
 uniform float freshSeconds;
 
 const float kHasLeft = -1.0;   // instead of a maturity: the motion of movers carries nothing here
+const float kJoined = -1.0;    // s, instead of a rest: so long what has joined the background, or was
+                               // other content and no mover, tells nothing of what is beside it
 const float kTentative = 0.7;  // s: what has changed once and then rests is no mover
+const float kLeastRest = 0.08;  // s, of what may have been uncovered
 const float kRestingChange = 0.05;
 const float kMovingRestingChange = 0.3;  // while the camera moves: its picture trembles
 const float kFrames = 30.0;
 const float kMovingFrames = 4.0;  // while the camera moves: each frame's interpolation blurs
 const float kMostOthers = 0.5;  // of the picture: if more is other content, the light has changed
+const float kLeastOther = 0.15;
 const float kLikelier = 0.06;  // of colour: uncovered rather than covered
 const float kAlike = 0.6;      // share of the memory's difference that is left
 const float kSwitched = 0.04;  // of all blocks: a light has been switched
@@ -98,6 +109,41 @@ bool isUncovered(ivec2 cell, ivec2 size) {
   return sum.x - sum.y > kLikelier * weights && sum.y < kAlike * sum.x;
 }
 
+// Whether what is seen goes on in the background beside it, and what was remembered does not: a
+// mover was remembered, and has left. All of its place is found so from its outline inwards, some
+// 16 px of the full image a frame. Holes in a mover are no background, nor are its parts that have
+// joined.
+bool continuesBackground(ivec2 cell, ivec2 size) {
+  const float kLeastBeside = 3.0;  // of the nine
+  const float kSpeck = 6.0;        // so many: nothing of a mover is around
+  vec3 remembered = vec3(0.0);
+  vec3 seen = vec3(0.0);
+  vec4 beside = vec4(0.0);
+  for (int i = 0; i < 9; ++i) {
+    ivec2 at = clamp(cell + ivec2(i % 3 - 1, i / 3 - 1), ivec2(0), size - 1);
+    remembered += texelFetch(background, at, 0).rgb / 9.0;
+    seen += texelFetch(picture, at, 0).rgb / 9.0;
+  }
+  for (int stride = 1; stride <= 8 && beside.a < kLeastBeside; stride *= 2) {
+    beside = vec4(0.0);
+    for (int i = 0; i < 9; ++i) {
+      ivec2 at = cell + stride * ivec2(i % 3 - 1, i / 3 - 1);
+      if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size))) continue;
+      vec4 there = texelFetch(candidates, at, 0);
+      vec4 was = texelFetch(evidence, at, 0);
+      bool isGround = there.r < kLeastOther && there.g < 0.1 && was.r >= 0.0 && was.g >= 0.0;
+      if (!isGround) continue;
+      beside += vec4(texelFetch(picture, at, 0).rgb, 1.0);
+    }
+    if (stride == 1 && beside.a >= kSpeck) return true;
+  }
+  if (beside.a < kLeastBeside) return false;
+  vec3 ground = beside.rgb / beside.a;
+  float before = apart(remembered, ground);
+  float now = apart(seen, ground);
+  return before - now > kLikelier && now < kAlike * before;
+}
+
 void main() {
   ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   ivec2 size = imageSize(labels);
@@ -113,18 +159,13 @@ void main() {
   vec4 past = texelFetch(evidence, cell, 0);
   if (!hasPast) {
     imageStore(labels, cell, vec4(0.0));
-    imageStore(backgroundNow, cell, vec4(now, past.r < 0.0 ? 0.0 : 1.0));
+    imageStore(backgroundNow, cell, vec4(now, 1.0));
     return;
   }
   vec4 own = texelFetch(candidates, cell, 0);
-  bool isAnother = past.r < -1.5;
+  bool isAnother = past.r < 0.0;
   vec4 known = isInPicture(from) && !isAnother ? textureLod(background, inLayers(background, from), 0.0)
                                  : vec4(now, 0.0);
-  if (past.r < 0.0 && !isAnother) {  // a model: what is behind it stays as it was known
-    imageStore(labels, cell, vec4(0.0));
-    imageStore(backgroundNow, cell, known);
-    return;
-  }
   float others = 0.0;
   float changes = 0.0;
   float carried = 0.0;
@@ -150,22 +191,31 @@ void main() {
   bool hasCause = changes > 0.08 || carried > 0.5;
   bool isMover = !isLight && hasCause && (isOther || (wasMover && own.r > 0.15 && others > 0.3));
   bool isResting = changes < (isStanding ? kRestingChange : kMovingRestingChange);
-  float rest = isMover && isResting ? past.g + stepSeconds : 0.0;
+  float rest = isMover && isResting ? max(past.g, 0.0) + stepSeconds : 0.0;
   float maturity = isMover ? past.b : 0.0;
   bool isYoung = isMover && maturity <= kMatureSeconds;
   // What was a mover when the camera began to look, or stood there for long, has left. Flow and the
   // motion of movers reach beyond their outlines: neither makes such a place older. While the camera
   // moves, new parts of a mover would be taken for such places.
   bool hasLeft = isYoung && isStanding && isUncovered(cell, size);
-  if (hasLeft) {
-    maturity = kHasLeft;
-  } else if (isYoung && known.a >= 0.5) {
+  if (!hasLeft && isYoung && known.a >= 0.5) {
     maturity = max(maturity, maturityAround(cell, size, now, known.rgb));
   }
+  // Later, it would take a mover that rests beside things of its own colour for such a place.
+  bool mayContinue = isMover && isStanding && isDoubted && rest > kLeastRest;
+  hasLeft = hasLeft || (mayContinue && continuesBackground(cell, size));
+  if (hasLeft) maturity = kHasLeft;
   float joinsAfter = hasLeft ? 0.0 : maturity > kMatureSeconds ? restSeconds : kTentative;
+  bool isBeforeModel = hasFront && !hasLeft && texelFetch(front, cell, 0).r > 0.0;
+  if (isBeforeModel) joinsAfter = max(joinsAfter, frontRestSeconds);
+  bool isOdd = !isMover && own.r > kLeastOther;
   if (rest > joinsAfter) {
     isMover = false;
     known.a = 0.0;
+    isOdd = !hasLeft;
+  }
+  if (!isMover) {
+    rest = isOdd ? kJoined : past.g < 0.0 && others > 0.08 ? past.g : min(past.g + stepSeconds, 0.0);
   }
   float fresh = isMover != wasMover ? 1.0 : max(past.a - stepSeconds / freshSeconds, 0.0);
   imageStore(labels, cell, vec4(isMover ? 1.0 : 0.0, fresh, rest, maturity));

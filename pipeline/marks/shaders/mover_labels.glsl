@@ -10,9 +10,12 @@ vec2 moverAt(vec2 px) { return textureLod(movers, inLayers(movers, px), 0.0).rg;
 // The label, falling to 0 while a mover rests, before it joins the background: what has been seen to
 // move for kMatureSeconds (motion_layers.glsl) rests for longer.
 float movingAt(vec2 px) {
-  vec4 label = textureLod(movers, inLayers(movers, px), 0.0);
+  vec2 at = inLayers(movers, px);
+  vec4 label = textureLod(movers, at, 0.0);
+  vec4 rests = textureGather(movers, at, 2);  // what is no mover has none
+  float rest = max(max(rests.x, rests.y), max(rests.z, rests.w));
   vec2 fade = label.a > 0.2 ? vec2(0.5, 3.5) : vec2(0.4, 0.7);
-  return label.r * (1.0 - smoothstep(fade.x, fade.y, label.b));
+  return label.r * (1.0 - smoothstep(fade.x, fade.y, rest));
 }
 
 // The largest label at a place and at this distance from it, in px.

@@ -10,10 +10,11 @@ bool findMoverMotion(vec2 px, out vec2 displacement) {
   ivec2 nearest = ivec2(floor(at + 0.5));
   ivec2 last = textureSize(moverMotion, 0) - 1;
   vec3 sum = vec3(0.0);
-  for (int y = -2; y <= 2; ++y) {
-    for (int x = -2; x <= 2; ++x) {
-      ivec2 block = nearest + ivec2(x, y);
-      if (any(lessThan(block, ivec2(0))) || any(greaterThan(block, last))) continue;
+  ivec2 first = max(nearest - 2, ivec2(0));
+  last = min(nearest + 2, last);
+  for (int y = first.y; y <= last.y; ++y) {
+    for (int x = first.x; x <= last.x; ++x) {
+      ivec2 block = ivec2(x, y);
       vec2 away = vec2(block) - at;
       sum += exp(-0.7 * dot(away, away)) * texelFetch(moverMotion, block, 0).xyz;
     }

@@ -94,7 +94,8 @@ Json jsonOf(const MoverSummary& movers) {
           {"still_percent", orNull(movers.stillPercent)},
           {"return_levels", orNull(movers.returnLevels)},
           {"ghost", orNull(movers.ghost)},
-          {"lost_percent", orNull(movers.lostPercent)}};
+          {"lost_percent", orNull(movers.lostPercent)},
+          {"remains_percent", orNull(movers.remainsPercent)}};
 }
 
 Json jsonOf(const MoverMotionSummary& along) {

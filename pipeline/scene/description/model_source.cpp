@@ -2,6 +2,7 @@
 
 #include "pipeline/scene/builtin/builtin_box.h"
 #include "pipeline/scene/gltf/gltf_file.h"
+#include "pipeline/scene/meshes/mesh_file.h"
 
 namespace pleinair::scene {
 namespace {
@@ -18,7 +19,9 @@ struct ModelMaker {
   }
   hal::Result<Model> operator()(const TubeSource& tube) const { return tubeModel(tube); }
   hal::Result<Model> operator()(const BallSource& ball) const { return ballModel(ball); }
-  hal::Result<Model> operator()(const FileSource& file) const { return readGltf(file.path); }
+  hal::Result<Model> operator()(const FileSource& file) const {
+    return isMeshFile(file.path) ? readMeshFile(file.path) : readGltf(file.path);
+  }
 };
 
 }  // namespace
@@ -28,6 +31,7 @@ hal::Result<Model> modelOf(const ModelSource& source) {
 }
 
 bool hasOwnColours(const ModelSource& source) {
+  if (const auto* file = std::get_if<FileSource>(&source)) return hasMaterials(file->path);
   return !std::holds_alternative<BoxSource>(source) && !std::holds_alternative<GearSource>(source);
 }
 

@@ -26,7 +26,7 @@ using TubeSource = TubeParameters;
 
 using BallSource = BallParameters;
 
-/// A glTF file.
+/// A glTF, STL or OBJ file.
 struct FileSource {
   std::filesystem::path path;
   friend bool operator==(const FileSource&, const FileSource&) = default;
@@ -36,7 +36,8 @@ struct FileSource {
 using ModelSource =
     std::variant<BoxSource, GearSource, GearboxSource, TubeSource, BallSource, FileSource>;
 
-/// Loads or makes the model. Errors: those of readGltf(), for files only. Preconditions: faultOf()
+/// Loads or makes the model. Errors: those of readGltf() and readMeshFile(),
+/// for files only. Preconditions: faultOf()
 /// a gear is nothing; a gearbox has numbers of teeth in range.
 hal::Result<Model> modelOf(const ModelSource& source);
 

@@ -33,6 +33,7 @@ struct SceneModel {
   std::shared_ptr<const Model> model;
   std::optional<int> tagId;          ///< the tag it is attached to; nothing: the world
   glm::dmat4 attachFromModel{1.0};   ///< rotation, translation and uniform scale
+  double unitMetres = 1.0;           ///< a part of that scale: how long the file's unit is
   glm::vec3 srgb{0.8F, 0.5F, 0.2F};  ///< sRGB-coded; multiplies the colours of its materials
   float focus = 0.0F;                ///< 1: a style keeps it sharp; 0: painted like the rest
   Playback playback;

@@ -142,13 +142,22 @@ SceneModel readModel(const TomlTable& table, const std::filesystem::path& direct
   model.tagId = readAttachment(table, scene);
   const double scale = table.optionalNumber("scale", {.min = 1e-6, .max = 1e6}).value_or(1.0);
   model.attachFromModel = glm::scale(readPose(table).value_or(glm::dmat4(1.0)), glm::dvec3(scale));
+  glm::dmat4 frame(1.0);
+  if (const auto* file = std::get_if<FileSource>(&model.source)) {
+    frame = readFileFrame(table, *file);
+    model.unitMetres = glm::length(glm::dvec3(frame[0]));
+    model.attachFromModel = model.attachFromModel * frame;
+  }
   const glm::vec3 untinted = hasOwnColours(model.source) ? glm::vec3(1.0F) : model.srgb;
   model.srgb = readColour(table).value_or(untinted);
   model.isOccluder = table.optionalBoolean("occluder").value_or(false);
   model.focus =
       static_cast<float>(table.optionalNumber("focus", {.min = 0.0, .max = 1.0}).value_or(0.0));
   model.model = modelOfSource(model.source, table, scene);
-  const StrokeDirection strokes = readStrokeDirection(table, *model.model, model.isOccluder);
+  StrokeDirection strokes = readStrokeDirection(table, *model.model, model.isOccluder);
+  // The author speaks of axes with z up, the model has the file's.
+  strokes.axis =
+      glm::vec3(glm::transpose(glm::dmat3(frame)) * glm::dvec3(strokes.axis) / model.unitMetres);
   model.model = withStrokes(std::move(model.model), strokes, model.source, scene);
   model.playback = readPlayback(table, model.model->rig);
   return model;
@@ -168,9 +177,10 @@ std::vector<std::string> noticesOf(const SceneModel& model) {
   const double scale = glm::length(glm::dvec3(model.attachFromModel[0]));
   const double width = 2.0 * scale * boundingSphere(*model.model).radiusMetres;
   if (width > kHugeMetres || (width > 0.0 && width < kTinyMetres)) {
-    notices.push_back(
-        fmt::format("{}: is {:.3g} m wide here{}; a scale of {:.2g} makes it 0.2 m", name, width,
-                    file != nullptr ? "" : " (its lengths are in metres)", 0.2 * scale / width));
+    notices.push_back(fmt::format("{}: is {:.3g} m wide here{}; a scale of {:.2g} makes it 0.2 m",
+                                  name, width,
+                                  file != nullptr ? "" : " (its lengths are in metres)",
+                                  0.2 * scale / model.unitMetres / width));
   }
   return notices;
 }

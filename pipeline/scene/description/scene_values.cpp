@@ -5,12 +5,16 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
+
+#include "pipeline/scene/meshes/mesh_file.h"
 
 namespace pleinair::scene {
 namespace {
@@ -112,7 +116,19 @@ bool isModelFile(std::string name) {
   std::ranges::transform(name, name.begin(), [](char c) {
     return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   });
-  return !name.starts_with("builtin:") && (name.ends_with(".glb") || name.ends_with(".gltf"));
+  if (name.starts_with("builtin:")) return false;
+  return name.ends_with(".glb") || name.ends_with(".gltf") || isMeshFile(name);
+}
+
+/// The way to an STL for models in files of CAD programs; else empty.
+std::string conversionHint(const std::string& name) {
+  static constexpr std::array<std::string_view, 8> kCad{".step",  ".stp",  ".iges",   ".igs",
+                                                        ".fcstd", ".brep", ".sldprt", ".ipt"};
+  std::string ending = std::filesystem::path(name).extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (std::ranges::find(kCad, ending) == kCad.end()) return {};
+  return "; FreeCAD makes an .stl of it (docs/scene-files.md)";
 }
 
 }  // namespace
@@ -161,9 +177,9 @@ ModelSource readSource(const config::TomlTable& table, const std::filesystem::pa
   if (isModelFile(name)) return FileSource{directory / name};
   const auto kind = std::ranges::find(kKinds, name, &config::Choice<Kind>::name);
   if (kind == kKinds.end()) {
-    throw table.error(
-        "source", "found " + config::quoted(name),
-        fmt::format("{}, or a .glb or .gltf file", fmt::join(config::namesOf(kKinds), ", ")));
+    throw table.error("source", "found " + config::quoted(name),
+                      fmt::format("{}, or a .glb, .gltf, .stl or .obj file{}",
+                                  fmt::join(config::namesOf(kKinds), ", "), conversionHint(name)));
   }
   switch (kind->value) {
     case Kind::kBox:
@@ -178,6 +194,27 @@ ModelSource readSource(const config::TomlTable& table, const std::filesystem::pa
       return readBall(table);
   }
   return readBox(table);
+}
+
+glm::dmat4 readFileFrame(const config::TomlTable& table, const FileSource& file) {
+  static constexpr std::array<config::Choice<double>, 4> kUnits{
+      {{"m", 1.0}, {"mm", 0.001}, {"cm", 0.01}, {"in", 0.0254}}};
+  enum class Up { kY, kZ };
+  static constexpr std::array<config::Choice<Up>, 2> kUps{{{"y", Up::kY}, {"z", Up::kZ}}};
+  const bool isMesh = isMeshFile(file.path);
+  std::optional<double> units = table.optionalChoice("units", kUnits);
+  if (!units && isMesh) {
+    throw table.error("units", "is missing, and such files do not say theirs",
+                      "\"mm\" (most CAD programs), \"cm\", \"m\" or \"in\"");
+  }
+  const Up own = isMesh && !hasMaterials(file.path) ? Up::kZ : Up::kY;
+  const Up up = table.optionalChoice("up", kUps).value_or(own);
+  // glTF is read with its y as z already.
+  const Up asRead = isMesh ? Up::kZ : Up::kY;
+  glm::dmat4 frame(units.value_or(1.0));
+  frame[3][3] = 1.0;
+  if (up == asRead) return frame;
+  return glm::rotate(frame, glm::radians(up == Up::kY ? 90.0 : -90.0), glm::dvec3(1.0, 0.0, 0.0));
 }
 
 }  // namespace pleinair::scene

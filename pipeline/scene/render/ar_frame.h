@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "hal/clock.h"
 #include "hal/pixel_format.h"
 #include "pipeline/gpu/buffer.h"
+#include "pipeline/gpu/render_target.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/scene/models/limits.h"
 #include "pipeline/tracking/camera/camera_model.h"
@@ -79,6 +81,22 @@ struct FocusPlace {
   float strength = 1.0F;   ///< in [0, 1]
 };
 
+/// Where a virtual model stands: a convex quadrilateral in px of this image, its corners in turn.
+struct Footprint {
+  std::array<glm::vec2, 4> px{};
+  bool operator==(const Footprint&) const = default;
+};
+inline constexpr std::size_t kMaxFootprints = 16;  ///< of one frame; more are left out
+
+/// The render targets that a frame is composed in, for passes that hide models in it
+/// (scene::ModelHiding).
+struct Composition {
+  /// ArFrame::colour, ids, normalFocus; and depth
+  const gpu::RenderTarget* picture = nullptr;
+  /// ArFrame::motion, barycentrics, parts, forms; null if they were not asked for
+  const gpu::RenderTarget* surfaces = nullptr;
+};
+
 /// Segments of the camera image, if a style asks for them.
 struct MeasuredSegments {
   const tracking::ImageSegments* segments = nullptr;  ///< in px of the captured frame
@@ -102,10 +120,13 @@ struct ArFrameNeeds {
 /// next frame is composed.
 struct ArFrame {
   const gpu::Texture* colour = nullptr;  ///< RGBA8, sRGB-coded, LINEAR filter
-  const gpu::Texture* ids = nullptr;     ///< R32UI: object << kTriangleBits | triangle
+  /// The same without models and their shadows. Null: `colour` shows none.
+  const gpu::Texture* cameraColour = nullptr;
+  const gpu::Texture* ids = nullptr;  ///< R32UI: object << kTriangleBits | triangle
   const gpu::Texture* normalFocus =
-      nullptr;                          ///< RGBA8: camera-frame normal · 0.5 + 0.5; focus in A
-  const gpu::Texture* depth = nullptr;  ///< kDepth24, window depth; 1 where no object is
+      nullptr;  ///< RGBA8: camera-frame normal · 0.5 + 0.5; focus in A
+  /// kDepth24, window depth; 1 where no object is. ModelHiding leaves it as it was.
+  const gpu::Texture* depth = nullptr;
   /// Null unless asked for. R32UI: the barycentric coordinates of the first two corners of the
   /// triangle (PosedGeometry::triangles()), 16-bit unorms, the first in the lower half. With ids
   /// they give the exact point of the surface. 0 where there is no object.
@@ -132,6 +153,9 @@ struct ArFrame {
   float farMetres = 0.0F;
   /// The scene's foci that have been seen since the last reset, each where it is, or was last.
   std::span<const FocusPlace> foci;
+  /// Where the virtual models stand that may be visible.
+  std::span<const Footprint> footprints;
+  std::optional<Composition> composition;  ///< set if there are models
   /// Maps px of the full image to px of a flat canvas that moves with the whole image
   /// (tracking::CanvasMotion); the identity if the motion is not followed.
   tracking::PlaneSimilarity canvasFromPicture;
@@ -142,6 +166,7 @@ struct ArFrame {
   /// lengths of styles in px refer to that size.
   std::optional<hal::FrameSize> fullSize;
 
+  const gpu::Texture& camera() const { return cameraColour != nullptr ? *cameraColour : *colour; }
   hal::FrameSize size() const { return colour->size(); }
   /// The same for shaders, which skip the rest of the image; empty if there are no objects.
   glm::vec4 objectBoundsOrAll() const {

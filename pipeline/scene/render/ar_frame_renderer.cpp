@@ -14,6 +14,7 @@
 #include <glm/matrix.hpp>
 
 #include "pipeline/scene/light/linear_image.h"
+#include "pipeline/scene/render/footprints.h"
 #include "pipeline/scene/render/scene_bodies.h"
 #include "pipeline/scene/render/scene_uniforms.h"
 
@@ -55,6 +56,7 @@ ArFrameRenderer::ArFrameRenderer(const gpu::ShaderLibrary& library, Scene scene)
   assert(scene_.models.size() <= kMaxObjects && scene_.planes.size() <= kMaxPlanes);
   visible_.reserve(scene_.models.size());
   foci_.reserve(scene_.foci.size());
+  footprints_.reserve(kMaxFootprints);
   makePrograms(library);
 }
 
@@ -162,6 +164,7 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
   if (shadow_) shadow_->cast(visible_, bodies_, lights_);
   drawFrame(picture, camera);
   frame_.colour = visible_.empty() ? &picture : &surfacesNow_->colour;
+  frame_.cameraColour = &picture;
   frame_.ids = &surfacesNow_->ids;
   frame_.normalFocus = &surfacesNow_->normalFocus;
   frame_.depth = &surfacesNow_->depth;
@@ -169,6 +172,11 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
   frame_.hasFocus = std::ranges::any_of(
       visible_, [&](std::size_t each) { return scene_.models[each].focus > 0.0F; });
   frame_.foci = foci_;
+  findFootprints(scene_, geometry_, bodies_, visible_, camera, footprints_);
+  frame_.footprints = footprints_;
+  if (!visible_.empty()) {
+    frame_.composition = Composition{.picture = &surfacesNow_->target, .surfaces = nullptr};
+  }
   frame_.sequence = sequence;
   frame_.captureTime = captureTime;
   if (needs.surfaces && surfacePass_) findSurfaces(camera);
@@ -365,6 +373,7 @@ void ArFrameRenderer::findSurfaces(const tracking::CameraModel& camera) {
   frame_.forms = &surfacesNow_->buffers->forms;
   const ScreenArea& objects = surfacesNow_->buffers->objects;
   frame_.objectBounds = glm::ivec4(objects.origin, objects.origin + objects.size);
+  if (frame_.composition) frame_.composition->surfaces = &surfacesNow_->buffers->target;
   camera_ = camera;
   frame_.surfaces =
       SurfaceAccess{.posed = geometry_.isEmpty() ? nullptr : &geometry_.posed(),

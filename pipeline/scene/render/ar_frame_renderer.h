@@ -51,6 +51,16 @@ class ArFrameRenderer {
                          const PoseSet& poses, std::uint64_t sequence, hal::TimePoint captureTime,
                          ArFrameNeeds needs = {}, std::span<const PlaceLighting> lights = {});
 
+  /// From the next frame on, parts of a model (index in the scene) whose byte is not 0 are not
+  /// there (PosedGeometry::hideParts()).
+  void hideParts(std::size_t model, std::span<const std::uint8_t> hidden) {
+    geometry_.hideParts(model, hidden);
+  }
+  /// Where a model was drawn in the last frame; nothing where its pose was unknown.
+  const std::optional<Body::Moment>& placeOf(std::size_t model) const {
+    return bodies_.model(model).current;
+  }
+
   /// Reads which points of the models the last frame shows, for measures and tests; waits for the
   /// GPU. Precondition: a frame was composed, and asked for surfaces.
   SurfaceSnapshot snapshot();
@@ -115,6 +125,7 @@ class ArFrameRenderer {
   std::optional<tracking::CameraModel> camera_;      // for ArFrame::surfaces
   std::vector<std::optional<FocusPlace>> lastFoci_;  // of all foci; nothing: never seen
   std::vector<FocusPlace> foci_;                     // for ArFrame::foci
+  std::vector<Footprint> footprints_;                // for ArFrame::footprints
   Shading shading_ = Shading::kToon;
   std::vector<std::optional<hal::TimePoint>> firstSight_;  // per model
   gpu::PerSize<Surfaces> surfaces_;                        // per composed size

@@ -144,8 +144,22 @@ void PosedGeometry::pose(std::size_t index, hal::Duration elapsed, hal::Duration
   const bool isStatic = isAlwaysStatic(model, sceneModel.playback);
   if (isStatic && object.isAtRest[half_]) return;
   poseModel(model, momentOf(model.rig, sceneModel.playback, elapsed), turning, object.pose);
+  for (std::size_t i = 0; i < object.hidden.size(); ++i) {
+    if (object.hidden[i] == 0) continue;
+    // Triangles that shrink to a point cover no pixel.
+    const ModelPart& part = model.parts[i];
+    std::fill_n(object.pose.matrices.begin() + static_cast<std::ptrdiff_t>(part.firstMatrix),
+                part.matrixCount, glm::dmat4(0.0));
+  }
   object.sphere = boundingSphere(model, object.pose);
   boundingSpheres(model, object.pose, object.spheres);
+}
+
+void PosedGeometry::hideParts(std::size_t index, std::span<const std::uint8_t> hidden) {
+  ObjectSlot& object = objects_[index];
+  assert(hidden.empty() || hidden.size() == model(index).parts.size());
+  object.hidden.assign(hidden.begin(), hidden.end());
+  object.isAtRest = {};
 }
 
 /// Static models are written once into each half.

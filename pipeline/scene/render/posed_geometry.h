@@ -41,6 +41,9 @@ class PosedGeometry {
   /// Poses an object (index of the model in the scene) at `elapsed` after its clip's start and
   /// `turning` after the first frame. At most once per frame each; all before endPosing().
   void pose(std::size_t object, hal::Duration elapsed, hal::Duration turning);
+  /// From the next pose() on, parts whose byte is not 0 are not there: they are drawn nowhere, cast
+  /// no shadow and hide nothing. One byte a part of the object's model; none: all are there.
+  void hideParts(std::size_t object, std::span<const std::uint8_t> hidden);
   /// Runs the compute passes for all posed objects.
   void endPosing();
   /// Forgets the previous frame.
@@ -103,9 +106,10 @@ class PosedGeometry {
     ModelPose pose;
     BoundingSphere sphere;
     std::vector<BoundingSphere> spheres;
-    bool isPosed = false;             // in this frame
-    std::array<bool, 2> isWritten{};  // whether each half holds the pose of its frame
-    std::array<bool, 2> isAtRest{};   // whether each half holds a static model's pose
+    std::vector<std::uint8_t> hidden;  // per part; empty: none
+    bool isPosed = false;              // in this frame
+    std::array<bool, 2> isWritten{};   // whether each half holds the pose of its frame
+    std::array<bool, 2> isAtRest{};    // whether each half holds a static model's pose
   };
 
   void addModel(const Model& model, std::vector<DrawnModel>& drawn);

@@ -12,6 +12,7 @@
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/marks/filtered_frame.h"
 #include "pipeline/marks/layer_textures.h"
+#include "pipeline/scene/render/model_hiding.h"
 #include "pipeline/styles/hatching/hatching_shaders.h"
 #include "pipeline/styles/strokes/brush_cache.h"
 #include "pipeline/styles/strokes/stroke_borders.h"
@@ -200,6 +201,7 @@ struct Drawing {
 struct Hatching::State {
   explicit State(const gpu::ShaderLibrary& shaders)
       : library(shaders),
+        hiding(library),
         filtered(library),
         lumaOnce(library.fragmentPass(kShaders + "luma.frag")),
         toneFirst(library.fragmentPass(kShaders + "tone.frag")),
@@ -217,6 +219,7 @@ struct Hatching::State {
         noIds(TextureFormat::kR32ui, {1, 1}) {}
 
   const gpu::ShaderLibrary& library;
+  scene::ModelHiding hiding;
   marks::FilteredFrame filtered;
   gpu::Program lumaOnce;
   gpu::Program toneFirst;
@@ -266,6 +269,7 @@ void Hatching::State::follow(const scene::ArFrame& frame, const HatchingParamete
   drawing->motion.update(frame);
   if (p.movers) {
     drawing->movers.update(frame, drawing->motion);
+    if (const Texture* const front = drawing->movers.front()) hiding.hide(frame, *front);
   } else {
     drawing->movers.reset();
   }
@@ -441,6 +445,7 @@ void Hatching::warmUp() {
     ++frame.sequence;
     paint(frame, {});
   }
+  state_->hiding.warmUp();
   p_ = hatchingParameters().typed(values_);
   state_->drawing.reset();
   state_->filtered.reset();

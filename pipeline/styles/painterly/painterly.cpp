@@ -21,12 +21,14 @@
 #include "pipeline/marks/segment_map.h"
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/marks/tensor_field.h"
+#include "pipeline/scene/render/model_hiding.h"
 #include "pipeline/styles/painterly/coherence.h"
 #include "pipeline/styles/painterly/layers.h"
 #include "pipeline/styles/painterly/painterly_shaders.h"
 #include "pipeline/styles/painterly/painterly_views.h"
 #include "pipeline/styles/painterly/palette.h"
 #include "pipeline/styles/painterly/reduced_images.h"
+#include "pipeline/styles/painterly/view_drawing.h"
 #include "pipeline/styles/strokes/brush_cache.h"
 #include "pipeline/styles/strokes/stroke_borders.h"
 #include "pipeline/styles/strokes/stroke_drawing.h"
@@ -143,6 +145,7 @@ constexpr std::array<std::string_view, 2> kPaperLooks{"sketch", "ink"};
 /// The same image as if a camera had taken all of it.
 scene::ArFrame withoutModels(const scene::ArFrame& frame) {
   scene::ArFrame image = frame;
+  image.cameraColour = nullptr;
   image.hasObjects = false;
   image.motion.reset();
   image.surfaces.reset();
@@ -162,31 +165,22 @@ struct Painterly::State {
         reduced(library),
         ground(library.fragmentPass(kShaders + "ground.frag")),
         relief(library.fragmentPass(kShaders + "relief.frag")),
-        fieldView(
-            library.fragmentPass(kShaders + "field_view.frag", viewDefines(painterlyViews()))),
-        moverView(
-            library.fragmentPass(kShaders + "mover_view.frag", viewDefines(painterlyViews()))),
-        segmentView(library.fragmentPass(kShaders + "segment_view.frag")),
-        featureView(library.fragmentPass(kShaders + "feature_view.frag")),
-        heightView(library.fragmentPass(kShaders + "height_view.frag")),
+        views(library),
+        hiding(library),
         borders(library),
         linen(library, Substrate::Kind::kLinen),
         paper(library, Substrate::Kind::kPaper),
         strips(library),
         drawing(library, painterlyViews()),
         brushes(library),
-        noIds(TextureFormat::kR32ui, {1, 1}),
-        features(TextureFormat::kRgba32f, {static_cast<int>(tracking::kMaxMovedFeatures), 1}) {}
+        noIds(TextureFormat::kR32ui, {1, 1}) {}
 
   const gpu::ShaderLibrary& library;
   ReducedImages reduced;
   gpu::Program ground;
   gpu::Program relief;
-  gpu::Program fieldView;
-  gpu::Program moverView;
-  gpu::Program segmentView;
-  gpu::Program featureView;
-  gpu::Program heightView;
+  ViewDrawing views;
+  scene::ModelHiding hiding;
   StrokeBorders borders;
   Substrate linen;
   Substrate paper;
@@ -194,7 +188,6 @@ struct Painterly::State {
   StrokeDrawing drawing;
   BrushCache brushes;
   Texture noIds;
-  Texture features;  // of the view of that name: where each was, and where it is
   marks::LayerTextures layerTextures;
   std::string palette = "all";  // that `mixtures` are of
   std::optional<Texture> mixtures;
@@ -215,9 +208,7 @@ struct Painterly::State {
   void findBorders(const scene::ArFrame& frame, const PainterlyParameters& p);
   void drawStrokes(const scene::ArFrame& frame, const PainterlyParameters& p);
   void light(const scene::ArFrame& frame, const PainterlyParameters& p);
-  void showField(const scene::ArFrame& frame, const PainterlyParameters& p, std::size_t view);
   void showStrokes(const scene::ArFrame& frame, std::size_t view);
-  void showFeatures(const scene::ArFrame& frame);
   const Texture& show(const scene::ArFrame& frame, const PainterlyParameters& p, std::size_t view);
 };
 
@@ -248,6 +239,7 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
   const marks::MotionLayers* const movers = moversOf(p);
   if (movers != nullptr) {
     painting->movers.update(frame, painting->motion);
+    if (movers->front() != nullptr) hiding.hide(frame, *movers->front());
   } else {
     painting->movers.reset();
   }
@@ -321,6 +313,8 @@ void Painterly::State::light(const scene::ArFrame& frame, const PainterlyParamet
       .texture("heights", canvas->height)
       .texture("movers", layerTextures.labelsOf(moversOf(p)))
       .texture("frame", *frame.colour)
+      .texture("ids", frame.hasObjects ? *frame.ids : noIds)
+      .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .texture("normalFocus", frame.hasFocus ? *frame.normalFocus : *frame.colour)
       .set("hasFocus", frame.hasFocus ? 1 : 0)
@@ -332,50 +326,6 @@ void Painterly::State::light(const scene::ArFrame& frame, const PainterlyParamet
       .set("ground", groundOf(p))
       .set("saturation", static_cast<float>(p.saturation))
       .set("warmth", static_cast<float>(p.warmth))
-      .drawFullscreen(canvas->finished);
-}
-
-void Painterly::State::showField(const scene::ArFrame& frame, const PainterlyParameters& p,
-                                 std::size_t view) {
-  const marks::TensorField& field = painting->field;
-  const auto level = [&](std::size_t i) -> const Texture& {
-    return field.resolved(std::min(i, field.levelCount() - 1));
-  };
-  fieldView.use()
-      .texture("picture", *frame.colour)
-      .texture("field0", level(0))
-      .texture("field1", level(1))
-      .texture("field2", level(2))
-      .texture("field3", level(3))
-      .set("size", glm::vec2(canvas->size.width, canvas->size.height))
-      .set("view", static_cast<int>(view))
-      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
-      .set("bands", glm::vec2(p.middleDetail, p.detail));
-  focusOf(frame, p).bind(fieldView);
-  fieldView.drawFullscreen(canvas->finished);
-}
-
-void Painterly::State::showFeatures(const scene::ArFrame& frame) {
-  std::vector<glm::vec4> places(tracking::kMaxMovedFeatures);
-  std::size_t count = 0;
-  if (frame.measuredMotion) {
-    const scene::MeasuredMotion& measured = *frame.measuredMotion;
-    const auto inFull = [&](glm::vec2 px) {
-      return glm::vec2((glm::dvec2(px) - measured.frameOrigin) / measured.frameScale);
-    };
-    for (const tracking::FeatureMotion& each : measured.motion->features) {
-      places[count++] = glm::vec4(inFull(each.previous), inFull(each.current));
-    }
-  }
-  features.upload(
-      {reinterpret_cast<const std::uint8_t*>(places.data()), places.size() * sizeof(glm::vec4)},
-      places.size() * sizeof(glm::vec4));
-  featureView.use()
-      .texture("picture", *frame.colour)
-      .texture("features", features)
-      .set("count", static_cast<int>(count))
-      .set("size", glm::vec2(canvas->size.width, canvas->size.height))
-      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .drawFullscreen(canvas->finished);
 }
 
@@ -399,39 +349,29 @@ void Painterly::State::showStrokes(const scene::ArFrame& frame, std::size_t view
 
 const Texture& Painterly::State::show(const scene::ArFrame& frame, const PainterlyParameters& p,
                                       std::size_t view) {
+  const glm::vec2 bands(p.middleDetail, p.detail);
+  const gpu::RenderTarget& target = canvas->finished;
   switch (viewerOf(view)) {
     case PainterlyViewer::kField:
-      showField(frame, p, view);
-      return canvas->picture;
+      views.showField(frame, painting->field, focusOf(frame, p), bands, view, target);
+      break;
     case PainterlyViewer::kStrokes:
       showStrokes(frame, view);
       return canvas->colour;
     case PainterlyViewer::kMovers:
-      moverView.use()
-          .texture("picture", *frame.colour)
-          .texture("movers", layerTextures.labelsOf(moversOf(p)))
-          .texture("background", layerTextures.backgroundOf(moversOf(p)))
-          .set("size", glm::vec2(canvas->size.width, canvas->size.height))
-          .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
-          .set("view", static_cast<int>(view))
-          .drawFullscreen(canvas->finished);
-      return canvas->picture;
+      views.showMovers(frame, moversOf(p), view, target);
+      break;
     case PainterlyViewer::kSegments:
-      segmentView.use()
-          .texture("picture", *frame.colour)
-          .texture("borders", clip != nullptr ? *clip : noIds)
-          .set("hasBorders", clip != nullptr ? 1 : 0)
-          .set("size", glm::vec2(canvas->size.width, canvas->size.height))
-          .drawFullscreen(canvas->finished);
+      views.showSegments(frame, clip, target);
       break;
     case PainterlyViewer::kFeatures:
-      showFeatures(frame);
-      return canvas->picture;
+      views.showFeatures(frame, target);
+      break;
     case PainterlyViewer::kHeight:
+      drawStrokes(frame, p);
+      views.showHeight(canvas->height, target);
       break;
   }
-  drawStrokes(frame, p);
-  heightView.use().texture("heights", canvas->height).drawFullscreen(canvas->finished);
   return canvas->picture;
 }
 
@@ -483,6 +423,7 @@ void Painterly::warmUp() {
       paint(frame, {});
     }
   }
+  state_->hiding.warmUp();
   p_ = painterlyParameters().typed(values_);
   state_->painting.reset();
   state_->canvas = nullptr;

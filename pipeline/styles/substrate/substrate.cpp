@@ -50,6 +50,7 @@ Substrate::Substrate(const gpu::ShaderLibrary& library, Kind kind)
   const char* shader = kind == Kind::kPaper ? "paper.frag" : "linen.frag";
   library.fragmentPass(std::string("pipeline/styles/substrate/shaders/") + shader)
       .use()
+      .set("one", 1)
       .drawFullscreen(gpu::RenderTarget({&tile_}));
 }
 

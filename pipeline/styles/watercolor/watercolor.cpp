@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -10,6 +12,8 @@
 #include "pipeline/marks/fading_past.h"
 #include "pipeline/marks/filtered_frame.h"
 #include "pipeline/marks/motion_field.h"
+#include "pipeline/marks/motion_layers.h"
+#include "pipeline/scene/render/model_hiding.h"
 #include "pipeline/styles/substrate/substrate.h"
 #include "pipeline/styles/substrate/substrate_shaders.h"
 #include "pipeline/styles/watercolor/watercolor_shaders.h"
@@ -56,6 +60,22 @@ constexpr std::array kGates{
                   GateMotion::kMoving},
 };
 
+/// Where the palette of a place is taken from (pigment.frag): x and y in radii of a disc, and the
+/// weight: the middle, six places around it, six further out between them.
+constexpr std::array<glm::vec4, 13> kPaletteTaps{{{0.0F, 0.0F, 1.2F, 0.0F},
+                                                  {0.52F, 0.0F, 1.0F, 0.0F},
+                                                  {0.26F, 0.45F, 1.0F, 0.0F},
+                                                  {-0.26F, 0.45F, 1.0F, 0.0F},
+                                                  {-0.52F, 0.0F, 1.0F, 0.0F},
+                                                  {-0.26F, -0.45F, 1.0F, 0.0F},
+                                                  {0.26F, -0.45F, 1.0F, 0.0F},
+                                                  {0.83F, 0.48F, 0.55F, 0.0F},
+                                                  {0.0F, 0.96F, 0.55F, 0.0F},
+                                                  {-0.83F, 0.48F, 0.55F, 0.0F},
+                                                  {-0.83F, -0.48F, 0.55F, 0.0F},
+                                                  {0.0F, -0.96F, 0.55F, 0.0F},
+                                                  {0.83F, -0.48F, 0.55F, 0.0F}}};
+
 /// One anchor a cell in the mean. Squares of two cells a side have enough of them for births and
 /// deaths to be rare: three of four must be gone, or half as many again be there.
 marks::AnchorOptions anchorOptions(const WatercolorParameters& p) {
@@ -81,7 +101,8 @@ struct Watercolor::Passes {
         composeMore(library.fragmentPass(kShaders + "compose.frag", {{"MOSAIC"}})),
         showSeeds(library.compute(kShaders + "show_seeds.comp")),
         view(library.fragmentPass(kShaders + "view.frag", viewDefines(kViews))),
-        substrate(library, Substrate::Kind::kPaper) {}
+        substrate(library, Substrate::Kind::kPaper),
+        paletteTaps(gpu::Buffer::of(std::span<const glm::vec4>(kPaletteTaps))) {}
 
   marks::FilteredFrame filtered;
   CellTiling tiler;
@@ -95,6 +116,7 @@ struct Watercolor::Passes {
   gpu::Program showSeeds;
   gpu::Program view;
   Substrate substrate;
+  gpu::Buffer paletteTaps;
 };
 
 /// The state that belongs to one full size.
@@ -104,6 +126,13 @@ struct Watercolor::Marks {
 
   hal::FrameSize full;
   marks::MotionField field;
+  struct Movers {
+    Movers(const gpu::ShaderLibrary& library, hal::FrameSize full)
+        : layers(library, full), hiding(library) {}
+    marks::MotionLayers layers;
+    scene::ModelHiding hiding;
+  };
+  std::optional<Movers> movers;               // where there are models: to hide these
   std::unique_ptr<marks::AnchorSet> anchors;  // of one cell size and seed
   std::unique_ptr<WatercolorCells> cells;
   int cellSize = 0;
@@ -145,6 +174,7 @@ void Watercolor::reset() {
   passes_->filtered.reset();
   if (marks_ == nullptr) return;
   marks_->field.reset();
+  if (marks_->movers) marks_->movers->layers.reset();
   if (marks_->anchors != nullptr) marks_->anchors->reset();
 }
 
@@ -172,6 +202,7 @@ const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view v
   takeCanvas(frame);
   step_ = hasPast_ ? marks::timeStep(lastTime_, frame.captureTime) : hal::Duration(0);
   marks_->field.update(frame);
+  hideModels(frame);
   marks_->anchors->advance(frame, marks_->field);
   filtered(frame);
   tile(frame, p_.mosaic > 0.0 || view == kMeansView);
@@ -185,6 +216,27 @@ const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view v
   }
   previousCanvas_ = canvas_;
   return canvas_->picture;
+}
+
+/// Where movers are before them. Movers are looked for in every frame of a scene with models, since
+/// the tag under a hand is lost first; only there are their programs made.
+void Watercolor::hideModels(const scene::ArFrame& frame) {
+  std::optional<Marks::Movers>& movers = marks_->movers;
+  const bool hasModels = frame.surfaces && frame.surfaces->posed != nullptr;
+  if (!p_.movers || !hasModels) {
+    if (movers) movers->layers.reset();
+    return;
+  }
+  if (!movers) {
+    movers.emplace(*library_, marks_->full);
+    movers->hiding.warmUp();
+    scene::ArFrame first = frame;  // runs all programs once
+    first.hasObjects = true;
+    movers->layers.update(first, marks_->field);
+    movers->layers.reset();
+  }
+  movers->layers.update(frame, marks_->field);
+  if (const Texture* const front = movers->layers.front()) movers->hiding.hide(frame, *front);
 }
 
 /// Anchors and cells for this frame's full size, and the parameters that they are made by.
@@ -258,6 +310,8 @@ void Watercolor::paintWashes(const scene::ArFrame& frame) {
       .texture("lightWash", cells.lightWash)
       .set("cellPixels", glm::vec2(static_cast<float>(marks_->cellSize) * pixelsOfFull_))
       .set("reach", static_cast<float>(p_.bleeding))
+      .uniformBlock("Taps", passes_->paletteTaps, 0, passes_->paletteTaps.sizeBytes())
+      .set("tapCount", static_cast<int>(kPaletteTaps.size()))
       .drawFullscreen(s.pigmentTarget);
   passes_->layers.use()
       .texture("guide", s.guide)

@@ -69,6 +69,7 @@ class Watercolor final : public Style {
 
   void takeMarks(const scene::ArFrame& frame);
   void takeCanvas(const scene::ArFrame& frame);
+  void hideModels(const scene::ArFrame& frame);
   void filtered(const scene::ArFrame& frame);
   void tile(const scene::ArFrame& frame, bool wantsMeans);
   void paintWashes(const scene::ArFrame& frame);

@@ -6,6 +6,7 @@ namespace pleinair::styles {
 
 using config::integerParameter;
 using config::numberParameter;
+using config::switchParameter;
 using P = WatercolorParameters;
 
 const config::ParameterTable<WatercolorParameters>& watercolorParameters() {
@@ -60,6 +61,8 @@ const config::ParameterTable<WatercolorParameters>& watercolorParameters() {
           "along its motion; 0 takes each frame as it is."),
       numberParameter("colour_time", &P::colourTimeSeconds, {.min = 0, .max = 5, .unit = "s"},
                       "Time constant of a cell's colours; 0 takes each frame's."),
+      switchParameter("movers", &P::movers,
+                      "Whether what moves by itself before a model hides it."),
   };
   return table;
 }

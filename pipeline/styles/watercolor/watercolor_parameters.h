@@ -37,6 +37,7 @@ struct WatercolorParameters {
   double mosaic = 0.0;
   double filterTimeSeconds = 0.3;
   double colourTimeSeconds = 0.3;
+  bool movers = true;
 };
 
 const config::ParameterTable<WatercolorParameters>& watercolorParameters();

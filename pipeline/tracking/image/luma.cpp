@@ -62,6 +62,23 @@ hal::PlaneView LumaConverter::convert(const hal::ImageView& image) {
   return {.bytes = buffer_, .strideBytes = static_cast<std::size_t>(size.width)};
 }
 
+hal::PlaneView LumaConverter::copy(const hal::ImageView& image) {
+  const hal::PlaneView luma = convert(image);
+  if (luma.bytes.data() == buffer_.data()) return luma;
+  const auto width = static_cast<std::size_t>(image.format.size.width);
+  const auto height = static_cast<std::size_t>(image.format.size.height);
+  buffer_.resize(width * height);
+  for (std::size_t y = 0; y < height; ++y) {
+    std::ranges::copy(luma.bytes.subspan(y * luma.strideBytes, width),
+                      buffer_.begin() + static_cast<std::ptrdiff_t>(y * width));
+  }
+  return {.bytes = buffer_, .strideBytes = width};
+}
+
+void LumaFrame::takeCopy(const hal::ImageView& image) {
+  take(converter_.copy(image), image.format.size);
+}
+
 void LumaFrame::take(const hal::ImageView& image) {
   image_ = image;
   size_ = image.format.size;

@@ -17,6 +17,8 @@ class LumaConverter {
   /// it has one; otherwise it is a buffer of this object, valid until the next call. Precondition:
   /// image.isComplete().
   hal::PlaneView convert(const hal::ImageView& image);
+  /// The same in a buffer of this object always: the image is read once, and not kept.
+  hal::PlaneView copy(const hal::ImageView& image);
 
  private:
   std::vector<std::uint8_t> buffer_;
@@ -31,6 +33,9 @@ class LumaFrame {
   /// Takes the next frame, of any format. Its pixels must stay valid while this object is used for
   /// the frame. Precondition: image.isComplete().
   void take(const hal::ImageView& image);
+  /// Takes the next frame and copies its luma: its pixels may go at once, and are read once, where
+  /// reading them is slow. Precondition: image.isComplete().
+  void takeCopy(const hal::ImageView& image);
   /// Takes a frame that is luma already; its pixels must stay valid in the same way.
   void take(const hal::PlaneView& luma, hal::FrameSize size);
 

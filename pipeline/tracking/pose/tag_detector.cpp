@@ -6,54 +6,14 @@
 #include <utility>
 
 #include <apriltag/apriltag.h>
-#include <apriltag/tag16h5.h>
-#include <apriltag/tag25h9.h>
-#include <apriltag/tag36h10.h>
-#include <apriltag/tag36h11.h>
-#include <apriltag/tagCircle21h7.h>
-#include <apriltag/tagCircle49h12.h>
-#include <apriltag/tagCustom48h12.h>
-#include <apriltag/tagStandard41h12.h>
-#include <apriltag/tagStandard52h13.h>
-#include <fmt/ranges.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "pipeline/tracking/pose/tag_family.h"
 
 namespace pleinair::tracking {
 namespace {
 
-struct FamilyEntry {
-  std::string_view name;
-  apriltag_family_t* (*create)();
-  void (*destroy)(apriltag_family_t*);
-  /// The library tabulates each code with up to this many flipped bits: two take 36 MB for
-  /// tag36h11's 587 codes, but gigabytes for tagStandard52h13's 48,714.
-  int correctedBits;
-};
-
-constexpr std::array<FamilyEntry, 9> kFamilies{{
-    {"tag36h11", tag36h11_create, tag36h11_destroy, 2},
-    {"tag36h10", tag36h10_create, tag36h10_destroy, 1},
-    {"tag25h9", tag25h9_create, tag25h9_destroy, 2},
-    {"tag16h5", tag16h5_create, tag16h5_destroy, 2},
-    {"tagCircle21h7", tagCircle21h7_create, tagCircle21h7_destroy, 2},
-    {"tagCircle49h12", tagCircle49h12_create, tagCircle49h12_destroy, 1},
-    {"tagStandard41h12", tagStandard41h12_create, tagStandard41h12_destroy, 1},
-    {"tagStandard52h13", tagStandard52h13_create, tagStandard52h13_destroy, 1},
-    {"tagCustom48h12", tagCustom48h12_create, tagCustom48h12_destroy, 1},
-}};
-
-const FamilyEntry* findFamily(std::string_view name) {
-  const auto* found = std::ranges::find(kFamilies, name, &FamilyEntry::name);
-  return found == kFamilies.end() ? nullptr : found;
-}
-
-const FamilyEntry& familyOrThrow(std::string_view name) {
-  hal::orThrow(checkTagFamily(name));
-  return *findFamily(name);
-}
-
-using FamilyHandle = std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)>;
 using DetectorHandle = std::unique_ptr<apriltag_detector_t, decltype(&apriltag_detector_destroy)>;
 using DetectionsHandle = std::unique_ptr<zarray_t, decltype(&apriltag_detections_destroy)>;
 
@@ -124,17 +84,6 @@ PixelRect hull(const PixelRect& a, const PixelRect& b) {
 
 }  // namespace
 
-hal::Result<void> checkTagFamily(std::string_view family, std::string subject) {
-  if (findFamily(family) != nullptr) return {};
-  std::vector<std::string_view> names;
-  names.reserve(kFamilies.size());
-  for (const FamilyEntry& entry : kFamilies) names.push_back(entry.name);
-  return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
-                                   .subject = std::move(subject),
-                                   .problem = fmt::format("unknown tag family '{}'", family),
-                                   .remedy = fmt::format("use one of {}", fmt::join(names, ", "))});
-}
-
 double decimationFor(hal::FrameSize size) {
   const int shorterSide = std::min(size.width, size.height);
   if (shorterSide < 400) return 1.0;
@@ -174,19 +123,19 @@ void selectDetections(std::vector<TagDetection>& candidates, const TagDetectorOp
 
 /// The family must outlive the detector that uses it: members are destroyed last to first.
 struct TagDetector::Handles {
-  Handles(const FamilyEntry& entry, int maxHamming)
-      : family(entry.create(), entry.destroy),
+  Handles(TagFamily opened, int maxHamming)
+      : family(std::move(opened.handle)),
         detector(apriltag_detector_create(), apriltag_detector_destroy) {
     apriltag_detector_add_family_bits(detector.get(), family.get(),
-                                      std::min(entry.correctedBits, maxHamming));
+                                      std::min(opened.correctedBits, maxHamming));
   }
-  FamilyHandle family;
+  std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)> family;
   DetectorHandle detector;
 };
 
 TagDetector::TagDetector(TagDetectorOptions options)
     : options_(std::move(options)),
-      handles_(std::make_unique<Handles>(familyOrThrow(options_.family), options_.maxHamming)) {
+      handles_(std::make_unique<Handles>(openTagFamily(options_.family), options_.maxHamming)) {
   assert(options_.decimation.value_or(1.0) >= 1.0 && options_.threads >= 1);
   assert(options_.maxHamming >= 0);
   apriltag_detector_t& detector = *handles_->detector;

@@ -35,7 +35,7 @@ class LiveEngine {
             },
             clock_)),
         supervisor_(selector_, clock_),
-        controls_(watercolorParameters()) {
+        controls_({.style = "watercolor", .painting = watercolorParameters()}) {
     options.qualityLevels = true;
     while (!chain_.capture().status().format) chain_.capture().step(clock_.now());
     auto output = std::make_unique<support::CapturingOutput>(notes_, clock_);
@@ -43,7 +43,7 @@ class LiveEngine {
     chain_.addOutput(std::move(output), format, {.name = "noting", .waiting = 16});
     chain_.makePaintStage(
         [this, options](const auto& formats) {
-          return std::make_unique<LivePainter>(options, formats, controls_);
+          return std::make_unique<LivePainter>(options, formats, controls_, controls_.parameters());
         },
         {.governor = {.levels = qualityLevels().size(), .pinned = {}},
          .latency = {},
@@ -111,7 +111,7 @@ TEST(LiveEngineTest, GivesTheFinishedPictureAsAStillUnderAnyView) {
   LiveEngine live(20);
   PaintParameters parameters = watercolorParameters();
   parameters.view = "cells";
-  live.controls().setParameters(parameters);
+  live.controls().setParameters({.style = "watercolor", .painting = parameters});
   live.step();
   live.controls().requestSnapshot();
   live.drain();

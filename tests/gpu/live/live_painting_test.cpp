@@ -172,17 +172,21 @@ TEST_F(LivePaintingTest, ShowsAPictureOnADisplayBeforeTheCameraIsMade) {
 
 TEST(LivePainter, MakesNoBrushInAFrameWhateverTheLook) {
   const styles::StyleKind& kind = styles::styleKind("painterly");
-  LiveControls controls({.style = kind.parametersOf("sketch"), .view = {}});
+  const auto parametersOf = [&kind](std::string_view look) {
+    return LiveParameters{.style = "painterly",
+                          .painting = {.style = kind.parametersOf(look), .view = {}}};
+  };
+  LiveControls controls(parametersOf("sketch"));
   LivePainter painter({.pictureSize = kFormat.size,
                        .style = "painterly",
                        .tracksTags = false,
                        .expectedFormat = kFormat},
-                      {hal::OutputFormat{.frame = kFormat}}, controls);
+                      {hal::OutputFormat{.frame = kFormat}}, controls, controls.parameters());
   const std::uint64_t before = styles::brushesMade();
   EXPECT_GT(before, 0U);
   const hal::Image image = support::testPicture(kFormat, 1);
   for (const styles::Look& look : kind.looks) {
-    controls.setParameters({.style = kind.parametersOf(look.name), .view = {}});
+    controls.setParameters(parametersOf(look.name));
     EXPECT_TRUE(painter.paint({.image = image.view()}, 0));
     EXPECT_EQ(styles::brushesMade(), before) << look.name;
   }

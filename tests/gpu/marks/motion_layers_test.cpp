@@ -289,6 +289,24 @@ TEST_F(MotionLayersTest, WhatAMoverUncoversForTheFirstTimeIsBackgroundAtOnce) {
   EXPECT_GT(overlapWith(view).iou(), 0.85) << "only the disc is left";
 }
 
+/// Flow that reaches beyond the disc carries its label to what it uncovers, which is known to be
+/// the background by what is seen around it.
+TEST_F(MotionLayersTest, WhatItUncoversBesideItselfIsBackgroundSoon) {
+  for (const int stood : {3, 40}) {
+    layers_->reset();
+    View view{.disc = {80.0, 120.0}, .radius = 35.0};
+    const View place = view;
+    for (int i = 0; i < stood; ++i) see(view);
+    for (int i = 0; i < 18; ++i) {
+      view.disc.x += 8.0;
+      seeDiscMoved(view, {8.0, 0.0}, Texture::kOutline);
+    }
+    const Overlap left = overlapWith(place);
+    EXPECT_LT(left.both, left.wanted / 50) << "after it stood there for " << stood << " frames";
+    EXPECT_GT(overlapWith(view).iou(), 0.7) << stood;
+  }
+}
+
 /// The disc appears and does not move at all, like an object that was put down.
 TEST_F(MotionLayersTest, AChangeThatThenRestsJoinsTheBackgroundAfterLessThanASecond) {
   for (int i = 0; i < 4; ++i) see({});

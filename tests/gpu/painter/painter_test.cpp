@@ -208,9 +208,10 @@ TEST_F(PainterTest, RefusesFramesAndReadersBeyondTheGpusLimitAndGoesOn) {
   Painter painter({.pictureSize = {96, 64}, .style = "none"});
   const int side = painter.contextInfo().maxSidePixels;
   const std::vector<std::uint8_t> bytes(static_cast<std::size_t>(side) + 1);
-  hal::CapturedFrame wide;
-  wide.image.format = {.pixelFormat = hal::PixelFormat::kGrey8, .size = {side + 1, 1}};
-  wide.image.planes[0] = {.bytes = bytes, .strideBytes = bytes.size()};
+  hal::ImageView picture{.format = {.pixelFormat = hal::PixelFormat::kGrey8, .size = {side + 1, 1}},
+                         .planes = {}};
+  picture.planes[0] = {.bytes = bytes, .strideBytes = bytes.size()};
+  const hal::CapturedFrame wide{.image = picture};
   const auto refused = painter.paint(wide, painter.defaultParameters());
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, hal::ErrorKind::kUnsupported);

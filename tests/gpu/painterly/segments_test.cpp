@@ -119,6 +119,19 @@ TEST_F(SegmentsTest, TheStyleAsksForThemIfTheyAreOn) {
   EXPECT_TRUE(style.needs().segments);
 }
 
+TEST_F(SegmentsTest, TheViewShowsEachInAColourOfItsOwn) {
+  Painterly style(library_);
+  style.setParameters(style.parameters().with("segments", "true"));
+  const std::vector<std::uint8_t> shown = paint(style, segmented(disc()), "segments");
+  const auto colourAt = [&](int x, int y) {
+    const std::size_t at = static_cast<std::size_t>(y * kSize.width + x) * 4;
+    return std::array{shown[at], shown[at + 1], shown[at + 2]};
+  };
+  EXPECT_EQ(colourAt(96, 72), colourAt(120, 90));
+  EXPECT_EQ(colourAt(5, 5), colourAt(180, 140));
+  EXPECT_NE(colourAt(96, 72), colourAt(5, 5));
+}
+
 /// To the pixel, though cells are two px wide; and under a pan of fractions of a pixel.
 TEST_F(SegmentsTest, BordersFollowThePixels) {
   double shift = 0.0;

@@ -29,7 +29,7 @@ Film readFilm(hal::Camera& camera, std::size_t first, std::size_t count, std::si
     const auto* frame = std::get_if<hal::CapturedFrame>(&next);
     if (frame == nullptr) break;
     if (i < first || (i - first) % every != 0) continue;
-    const hal::PlaneView luma = converter.convert(frame->image);
+    const hal::PlaneView luma = converter.convert(frame->image.map().view());
     const hal::FrameSize size = frame->image.format.size;
     const cv::Mat view(size.height, size.width, CV_8UC1,
                        const_cast<unsigned char*>(luma.bytes.data()), luma.strideBytes);

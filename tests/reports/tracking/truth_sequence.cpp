@@ -45,7 +45,7 @@ void forEachFrame(hal::Camera& camera, std::size_t mostFrames,
     const hal::NextFrame next = camera.next(hal::kNoDeadline);
     const auto* frame = std::get_if<hal::CapturedFrame>(&next);
     if (frame == nullptr) break;
-    take(i, lumaOf(converter, frame->image), frame->captureTime);
+    take(i, lumaOf(converter, frame->image.map().view()), frame->captureTime);
   }
   camera.stop();
 }

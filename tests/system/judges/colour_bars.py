@@ -18,11 +18,11 @@ def bars_of(frame, top=0.3, bottom=0.9):
             for i in range(count)]
 
 
-def farthest(frame, grey=False):
+def farthest(frame, grey=False, top=0.3, bottom=0.9):
     """The largest error of any bar in any channel, and all errors as text. `grey`: the camera
     delivered luma only (BT.601)."""
     worst, lines = 0.0, []
-    for (name, expected), found in zip(BARS, bars_of(frame)):
+    for (name, expected), found in zip(BARS, bars_of(frame, top, bottom)):
         if grey:
             expected = (0.299 * expected[0] + 0.587 * expected[1] + 0.114 * expected[2],) * 3
         off = max(abs(a - b) for a, b in zip(expected, found))

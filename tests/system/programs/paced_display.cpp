@@ -51,7 +51,7 @@ class GreyPainter final : public runtime::FramePainter {
     for (Open& each : outputs_) {
       each.inFlight.push_back({.sequence = frame.sequence,
                                .captured = frame.captureTime,
-                               .grey = frame.image.planes[0].bytes[0]});
+                               .grey = frame.image.map().view().planes[0].bytes[0]});
     }
     return {};
   }

@@ -21,6 +21,7 @@ def run(guest):
     program = guest.start(
         f"env GALLIVM_PERF=nopt ./pleinair run --camera {SIZE[0]}x{SIZE[1]}.y4m --style none "
         f"--size {SIZE[0]}x{SIZE[1]} --output display --set output.display.mode={SIZE[0]}x{SIZE[1]} "
+        f"--set output.display.scan_out=copied "
         f"--set output.waiting_pictures=false --set runtime.quality=full --set status.listen={live.STATUS}",
         "bochs")
     watched = live.Watched(guest, program)

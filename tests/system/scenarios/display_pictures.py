@@ -63,6 +63,7 @@ def show(guest, name, turns, fit):
     status = watched.wait_for_more(5)
     (output,) = status["outputs"]
     assert output["failures"] == 0, output
+    assert output["pacing"] == "clock", output
     shown = screens.read_ppm(guest.screenshot("shown-" + name, "card"))
     print(watched.stop())
     return shown

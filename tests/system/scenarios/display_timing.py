@@ -47,6 +47,7 @@ def show(guest, style, seconds):
     (output,) = status["outputs"]
     assert output["failures"] == 0, output
     assert abs(output["refresh_period_s"] - PERIOD) < 1e-3, output
+    assert output["pacing"] == "display", output
     assert output["refresh_phase_s"] > 0, output  # only flips that were counted tell it
     ledger = watched.stop()
 

@@ -42,9 +42,11 @@ void expectRefused(const std::vector<const char*>& arguments, const std::string&
 }
 
 TEST(CommandLine, RefusesWhatItDoesNotKnow) {
-  expectRefused({},
-                "one of run, render, record, looks, scene, calibrate, measure, config, devices, "
-                "doctor, warm-up, thesis and styles is required");
+  expectRefused(
+      {},
+      "one of run, rescue, render, record, looks, scene, tags, procedure, "
+      "record-check, record-export, inputs, calibrate, measure, config, devices, doctor, warm-up, "
+      "thesis and styles is required");
   expectRefused({"paint"}, "paint");
   expectRefused({"--verbose"}, "--verbose");
   expectRefused({"styles", "styles"}, "styles");

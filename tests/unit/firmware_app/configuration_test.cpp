@@ -195,7 +195,7 @@ TEST_F(ConfigurationTest, SetIsOfTheStyleThatTheCommandLineChooses) {
   EXPECT_THAT(
       refusal(),
       StartsWith("--set cell_size: unknown key (did you mean "
-                 "\"style.watercolor.cell_size\"?), allowed: camera.…, camera.synthetic.…, "));
+                 "\"style.watercolor.cell_size\"?), allowed: camera.…, camera.libcamera.…, "));
 }
 
 TEST_F(ConfigurationTest, SetNamesItsMistakes) {

@@ -1,5 +1,7 @@
 #include "firmware_app/scene/scene_observer.h"
 
+#include <algorithm>
+
 #include <glm/gtc/matrix_transform.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,7 +44,8 @@ scene::Scene sceneOf(const std::string& text) {
 
 /// What an observer finds in some frames from above, in which these tags lie.
 std::vector<std::string> findingsOf(const scene::Scene& scene,
-                                    const std::vector<support::SceneTag>& tags, int frames = 12) {
+                                    const std::vector<support::SceneTag>& tags, int frames = 12,
+                                    bool isMirrored = false) {
   const tracking::CameraModel camera = scene::assumedCamera({640, 480});
   const tracking::CameraModel& lens = scene.camera ? *scene.camera : camera;
   const glm::dmat4 cameraFromWorld = support::poseOf({3.14159265, 0, 0}, {0, 0, 0.9});
@@ -51,7 +54,10 @@ std::vector<std::string> findingsOf(const scene::Scene& scene,
   tracking::Tracker tracker(lens, scene.tags, options);
   SceneObserver observer(scene);
   for (int i = 0; i < frames; ++i) {
-    const hal::Image picture = support::renderTags(lens, cameraFromWorld, tags);
+    hal::Image picture = support::renderTags(lens, cameraFromWorld, tags);
+    for (int y = 0; isMirrored && y < picture.size().height; ++y) {
+      std::ranges::reverse(picture.row(0, y));
+    }
     observer.take(picture.view(),
                   tracker.track(picture.view(), hal::TimePoint(i * std::chrono::milliseconds(40))));
   }
@@ -89,6 +95,21 @@ TEST(SceneObserver, NamesTheFamilyThatIsSeen) {
               ElementsAre(HasSubstr("tag 3 of the scene was never seen"),
                           "the tags that are seen (5) are of the family tag36h11: give the scene's "
                           "tags family = \"tag36h11\""));
+}
+
+TEST(SceneObserver, NamesATagThatWasPrintedAtAnotherSize) {
+  const scene::Scene scene = sceneOf(kThreeTags);
+  std::vector<support::SceneTag> tags = tagsOf(scene);
+  tags[2].edgeMetres = 0.09;
+  EXPECT_THAT(findingsOf(scene, tags),
+              ElementsAre(testing::AllOf(HasSubstr("tag 2 is not where the scene places it"),
+                                         HasSubstr("or the edge_m of one of the tags"))));
+}
+
+TEST(SceneObserver, NamesAMirroredPrint) {
+  const scene::Scene scene = sceneOf(kThreeTags);
+  EXPECT_THAT(findingsOf(scene, tagsOf(scene), 12, true),
+              ElementsAre(HasSubstr("never seen"), HasSubstr("printed mirrored")));
 }
 
 TEST(SceneObserver, NamesTheTagsThatAreSeenInstead) {

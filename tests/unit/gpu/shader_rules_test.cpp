@@ -220,6 +220,21 @@ TEST(ShaderRules, RefuseOrderFromAtomics) {
   expectOnly(shader("a.comp", head + "uint f() { return atomicAdd(n, 1u); }"), "rule 7");
 }
 
+TEST(ShaderRules, CountTextures) {
+  std::string code;
+  for (int i = 0; i < 16; ++i) code += "uniform sampler2D t" + std::to_string(i) + ";\n";
+  EXPECT_THAT(shaderRules(shader("a.frag", code)), IsEmpty());
+  expectOnly(shader("a.frag", code + "uniform highp usampler2D ids;\n"), "17 textures");
+}
+
+TEST(ShaderRules, RefuseConstantBoundsThatAreCutShort) {
+  const std::string rest = "; ++i) {\n if (i >= count) break;\n sum += a[i]; } }";
+  expectOnly(shader("a.frag", "void main() { for (int i = 0; i < kMaxPlanes" + rest), "rule 19");
+  expectOnly(shader("a.frag", "void main() { for (int i = 0; i < 8" + rest), "rule 19");
+  EXPECT_THAT(shaderRules(shader("a.frag", "void main() { for (int i = 0; i < bound" + rest)),
+              IsEmpty());
+}
+
 TEST(ShaderRules, KeepMediumPrecisionToColours) {
   expectOnly(shader("a.frag", "precision mediump float;"), "mediump float");
   expectOnly(shader("a.frag", "uniform mediump vec2 colour;"), "mediump vec2");

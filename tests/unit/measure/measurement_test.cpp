@@ -28,7 +28,7 @@ class FunctionPainter final : public MeasuredPainter {
   using Function = std::function<cv::Mat3f(const cv::Mat3f&, int)>;
   explicit FunctionPainter(Function function) : function_(std::move(function)) {}
   hal::Result<PaintedFrame> paint(const hal::CapturedFrame& frame) override {
-    const cv::Mat3f input = toFloat(frame.image);
+    const cv::Mat3f input = toFloat(frame.image.map().view());
     return PaintedFrame{.input = hal::Image(frame.image),
                         .output = toImage(function_(input, calls++)),
                         .anchors = {}};
@@ -48,7 +48,7 @@ class SheetPainter final : public MeasuredPainter {
   explicit SheetPainter(cv::Point2f told) : told_(told) {}
   hal::Result<PaintedFrame> paint(const hal::CapturedFrame& frame) override {
     const cv::Rect sheet(cv::Point(50, 45) + calls_ * cv::Point(2, 1), cv::Size(60, 56));
-    cv::Mat3f shown = toFloat(frame.image);
+    cv::Mat3f shown = toFloat(frame.image.map().view());
     windowOf(sheet_, {0, 0}, sheet.size()).copyTo(shown(sheet));
     PaintedModels models{.ids = cv::Mat1i(shown.size(), 0),
                          .barycentrics = cv::Mat2f(shown.size(), cv::Vec2f()),

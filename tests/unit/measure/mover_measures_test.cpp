@@ -204,6 +204,28 @@ TEST(MoverMeasures, ATrailIsAGhost) {
   EXPECT_LT(report.painting.returnLevels.value(), 2.0) << "it has gone after a second";
 }
 
+/// The sequence begins while the bar is in view; the painting keeps half of what it showed first.
+TEST(MoverMeasures, WhatIsLeftOfAMoverOfTheFirstFrameRemains) {
+  constexpr int kFirst = kComes + 8;
+  const auto remainsOf = [](const std::function<cv::Mat3b(int)>& paint) {
+    MoverMeasures measures;
+    for (int i = kFirst; i < kFrames; ++i) {
+      measures.add({.time = timeOf(i), .input = imageOf(seen(i)), .output = imageOf(paint(i))});
+    }
+    return measures.total().value().painting.remainsPercent;
+  };
+  const cv::Rect first = barOf(kFirst);
+  const double remains = remainsOf([&](int frame) {
+                           cv::Mat3b painted = seen(frame);
+                           const cv::Rect half(first.x, first.y, first.width, first.height / 2);
+                           painted(half).setTo(cv::Scalar(200, 30, 20));
+                           return painted;
+                         }).value();
+  EXPECT_NEAR(remains, 50.0, 8.0);
+  EXPECT_LT(remainsOf(seen).value(), 0.1);
+  EXPECT_FALSE(reportOf(seen).painting.remainsPercent) << "no mover is there at first";
+}
+
 TEST(MoverMeasures, APlaceThatIsPaintedAnewHasNotReturned) {
   const MoverReport report = reportOf([](int frame) {
     cv::Mat3b painted = seen(frame);

@@ -134,5 +134,31 @@ TEST(Turned, TurnsClockwiseByRightAngles) {
   EXPECT_EQ(turned(turned(picture, 1), -1).view().row(0, 0)[0], 9);
 }
 
+TEST(WaitingPictures, AreThoseDrawnOneByOne) {
+  WaitingPictures pictures;
+  const hal::Image red = filled({320, 200}, 200, 30, 40);
+  const hal::Image blue = filled({200, 320}, 20, 30, 200);
+  const WaitingText other{.title = "Preparing to paint", .detail = ""};
+  struct Step {
+    hal::FrameSize size;
+    const hal::Image* painting;
+    std::uint64_t number;
+    const WaitingText* text;
+  };
+  const std::array<Step, 7> steps{Step{kSize, nullptr, 0, &kText}, {kSize, nullptr, 0, &other},
+                                  {kSize, &red, 1, &other},        {kSize, &red, 1, &kText},
+                                  {kSize, &blue, 2, &kText},       {{300, 500}, &blue, 2, &kText},
+                                  {kSize, nullptr, 0, &kText}};
+  for (const Step& each : steps) {
+    const hal::ImageView painting =
+        each.painting != nullptr ? each.painting->view() : hal::ImageView();
+    const hal::Image drawn = pictures.draw(each.size, painting, each.number, *each.text);
+    const hal::Image expected = waitingPicture(each.size, painting, *each.text);
+    ASSERT_EQ(drawn.format(), expected.format());
+    EXPECT_TRUE(std::ranges::equal(drawn.view().planes[0].bytes, expected.view().planes[0].bytes))
+        << &each - steps.data();
+  }
+}
+
 }  // namespace
 }  // namespace pleinair::present

@@ -112,6 +112,26 @@ TEST_F(BlankingPipeline, GoesOffAndOnWithinASecondOfAMovementAndStaysOn) {
   EXPECT_EQ(cards_.switchedOff, 6);
 }
 
+TEST_F(BlankingPipeline, PaintsOnlyNowAndThenWhileNobodyLooks) {
+  begin();
+  live_.chain->paint().remove(live_.chain->output(0));  // the one that has no display
+  ASSERT_TRUE(runUntil(false, 20s).has_value());
+  live_.runFor(2s);
+  const std::uint64_t painted = live_.chain->paint().status().painted;
+  const std::uint64_t shown = of(Outcome::kShown);
+  live_.runFor(10s);
+  EXPECT_GE(live_.chain->paint().status().painted, painted + 9);
+  EXPECT_LE(live_.chain->paint().status().painted, painted + 11);
+  EXPECT_GT(live_.chain->ledger().counts().of(Outcome::kBlanked), 280u);
+  isSomebodyThere_ = true;
+  const auto on = runUntil(true, 5s);
+  ASSERT_TRUE(on.has_value());
+  EXPECT_LE(*on, 1s);
+  live_.runFor(2s);
+  EXPECT_GT(of(Outcome::kShown), shown + 50);
+  EXPECT_TRUE(live_.chain->ledger().counts().addsUp());
+}
+
 TEST_F(BlankingPipeline, FramesMeanwhileAreTold) {
   begin();
   ASSERT_TRUE(runUntil(false, 20s).has_value());

@@ -197,6 +197,36 @@ TEST_F(LivePipelineTest, PaintsOnWithANewContextWhenOneIsLost) {
   expectSumsToAgree();
 }
 
+TEST_F(LivePipelineTest, FinishesItsFramesBeforeAnotherPainterIsMade) {
+  begin({.frames = 300});
+  live_.runFor(3s);
+  const int before = live_.gpu.made;
+  live_.chain->paint().renew();
+  EXPECT_TRUE(status().painting.isRenewing);
+  live_.runFor(1s);
+  EXPECT_FALSE(status().painting.isRenewing);
+  EXPECT_TRUE(status().painting.hasPainter);
+  live_.drain();
+  EXPECT_EQ(live_.gpu.made, before + 1);
+  EXPECT_EQ(status().painting.contextLosses, 0U);
+  EXPECT_EQ(counts().of(Outcome::kContextLost) + counts().of(Outcome::kStopped), 0U)
+      << "the old painter finished its own";
+  EXPECT_GT(counts().of(Outcome::kShown), 290U);
+  expectSumsToAgree();
+}
+
+TEST_F(LivePipelineTest, TriesAgainWhereAnotherPainterCannotBeMade) {
+  begin({.frames = 300});
+  live_.runFor(1s);
+  live_.gpu.failingStarts = 2;
+  live_.chain->paint().renew();
+  live_.drain();
+  EXPECT_TRUE(status().painting.hasPainter);
+  EXPECT_FALSE(status().painting.isRenewing);
+  EXPECT_GT(counts().of(Outcome::kShown), 250U);
+  expectSumsToAgree();
+}
+
 TEST_F(LivePipelineTest, RecoversFromAClockThatJumps) {
   begin();
   live_.runFor(2s);

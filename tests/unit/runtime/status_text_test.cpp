@@ -93,9 +93,12 @@ TEST(StatusJson, HoldsTheRefreshOfAnOutputAsFarAsItIsKnown) {
   auto output = nlohmann::json::parse(statusJson(status, levels()))["outputs"][0];
   EXPECT_EQ(output["refresh_period_s"], 0.02);
   EXPECT_FALSE(output.contains("refresh_phase_s"));
+  EXPECT_EQ(output["pacing"], "clock");
   status.outputs[0].refresh->phase = hal::TimePoint(12'500ms);
+  status.outputs[0].refresh->sequence = 750;
   output = nlohmann::json::parse(statusJson(status, levels()))["outputs"][0];
   EXPECT_EQ(output["refresh_phase_s"], 12.5);
+  EXPECT_EQ(output["pacing"], "display");
   const std::string metrics = statusMetrics(status, levels());
   EXPECT_THAT(metrics,
               HasSubstr("pleinair_output_refresh_period_seconds{output=\"loopback\"} 0.02\n"));

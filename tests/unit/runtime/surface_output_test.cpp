@@ -53,7 +53,7 @@ class SurfaceOutputTest : public testing::Test {
 };
 
 TEST_F(SurfaceOutputTest, ShowsEveryFrameAtItsRefreshOnTheDisplaysOwnGrid) {
-  FakeDisplay at60{.phase = hal::TimePoint(7ms)};
+  FakeDisplay at60{.period = 16'683'350ns, .phase = hal::TimePoint(7ms)};  // 59.94 Hz
   FakeDisplay at50{.period = 20ms, .phase = hal::TimePoint(3ms)};
   begin(600);
   OutputStage& stage60 = add(at60, {.name = "60 Hz", .waiting = 16});
@@ -69,8 +69,26 @@ TEST_F(SurfaceOutputTest, ShowsEveryFrameAtItsRefreshOnTheDisplaysOwnGrid) {
       ASSERT_EQ(display->shown[i].time, dueTime(captured, 120ms, refresh)) << stage->name();
     }
   }
+  // An output in memory beside them, such as a loopback, keeps its own due times.
+  ASSERT_EQ(live_.notes.size(), 600u);
   for (const auto& note : live_.notes) ASSERT_EQ(note.presented, began_ + note.time + 120ms);
   EXPECT_EQ(live_.chain->ledger().counts().of(Outcome::kShown), 600u);
+  expectSumsToAgree();
+}
+
+TEST_F(SurfaceOutputTest, ADisplayThatIsStuckDelaysNoLoopbackAndNoOtherDisplay) {
+  FakeDisplay stuck{.phase = hal::TimePoint(7ms), .holds = 1'000'000};
+  FakeDisplay runs{.period = 20ms, .phase = hal::TimePoint(3ms)};
+  begin(300);
+  OutputStage& first = add(stuck, {.name = "stuck", .waiting = 16});
+  OutputStage& second = add(runs, {.name = "runs", .waiting = 16});
+  live_.start();
+  live_.runFor(11s);
+  EXPECT_LE(stuck.shown.size(), 1u);
+  EXPECT_GT(of(first, Outcome::kNoSurface), 200u);
+  EXPECT_EQ(of(second, Outcome::kShown), 300u);
+  ASSERT_EQ(live_.notes.size(), 300u);
+  for (const auto& note : live_.notes) ASSERT_EQ(note.presented, began_ + note.time + 120ms);
   expectSumsToAgree();
 }
 

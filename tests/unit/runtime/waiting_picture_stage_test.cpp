@@ -206,5 +206,45 @@ TEST_F(WaitingPictureStage, KeepsTheLastFrameThatWasShownWhole) {
   EXPECT_EQ(stage.lastFrame()->size(), kSize);
 }
 
+/// Over the first pixel, opaque.
+std::shared_ptr<const Caption> spot(std::uint8_t level) {
+  auto caption = std::make_shared<Caption>();
+  caption->image = hal::Image(paper({2, 1}, level)->view());
+  caption->image.plane(0)[3] = 255;
+  caption->image.plane(0)[7] = 255;
+  caption->frame = {.pixelFormat = hal::PixelFormat::kRgba8, .size = kSize, .encoding = {}};
+  return caption;
+}
+
+TEST_F(WaitingPictureStage, ACaptionLiesOverFramesAndIsNoPartOfThem) {
+  OutputStage& stage = begin(60);
+  live_.start();
+  live_.runFor(500ms);
+  EXPECT_EQ(level(display_.shown.back()), 0) << "a control";
+  stage.setCaption(spot(255), 1.0);
+  live_.runFor(500ms);
+  EXPECT_EQ(level(display_.shown.back()), 255);
+  ASSERT_TRUE(stage.lastFrame().has_value());
+  EXPECT_EQ(stage.lastFrame()->view().row(0, 0)[0], 0);
+  stage.setCaption(nullptr, 0.0);
+  live_.runFor(500ms);
+  EXPECT_EQ(level(display_.shown.back()), 0);
+}
+
+TEST_F(WaitingPictureStage, ACaptionComesAndGoesOnAPictureThatStays) {
+  OutputStage& stage = begin(30);
+  stage.showWaiting(paper());
+  stepFor(stage, 40ms);
+  ASSERT_EQ(level(display_.shown.back()), kPaper);
+  stage.setCaption(spot(10), 1.0);
+  stepFor(stage, 40ms);
+  EXPECT_EQ(level(display_.shown.back()), 10);
+  stage.setCaption(spot(10), 1.0);
+  stage.setCaption(nullptr, 0.0);
+  stepFor(stage, 40ms);
+  EXPECT_EQ(level(display_.shown.back()), kPaper);
+  EXPECT_TRUE(stage.status().isWaitingShown);
+}
+
 }  // namespace
 }  // namespace pleinair::runtime

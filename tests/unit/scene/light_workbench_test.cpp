@@ -48,10 +48,10 @@ class Watching {
     clock_.advance(options_.framePeriod);
     const hal::NextFrame next = camera_.next(clock_.now() + std::chrono::seconds(1));
     const auto& frame = std::get<hal::CapturedFrame>(next);
-    const auto tracked = tracker_->track(frame.image, frame.captureTime);
-    estimator_->follow(frame.image, tracked, frame.captureTime);
+    const auto tracked = tracker_->track(frame.image.map().view(), frame.captureTime);
+    estimator_->follow(frame.image.map().view(), tracked, frame.captureTime);
     atOnce_->reset();
-    atOnce_->follow(frame.image, tracked, frame.captureTime);
+    atOnce_->follow(frame.image.map().view(), tracked, frame.captureTime);
     return estimator_->lights()[0].light;
   }
   /// Estimates from the same frame as if it were the first.

@@ -261,8 +261,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{
             kTag + "[[model]]\nsource = \"builtin:gera\"\nattach = \"tag:0\"\n",
             "scene.toml:6: model[0].source: found \"builtin:gera\", allowed: "
-            "builtin:box, builtin:gear, builtin:gearbox, builtin:tube, builtin:ball, or a .glb or "
-            ".gltf file"},
+            "builtin:box, builtin:gear, builtin:gearbox, builtin:tube, builtin:ball, or a .glb, "
+            ".gltf, .stl or .obj file"},
         Mistake{kTag + "[[model]]\nsource = \"builtin:box\"\nattach = \"tag:1\"\n",
                 "scene.toml:7: model[0].attach: found \"tag:1\", allowed: \"world\", \"tag:0\""},
         Mistake{"[[model]]\nsource = \"builtin:box\"\nattach = \"tag:1\"\n",

@@ -34,7 +34,7 @@ std::set<int> idsIn(const fs::path& picture, TagDetector& detector) {
   DetectionCounters counters;
   std::set<int> ids;
   for (const TagDetection& tag :
-       detector.detect(luma.convert(frame.image), frame.image.format.size, counters)) {
+       detector.detect(luma.convert(frame.image.map().view()), frame.image.format.size, counters)) {
     ids.insert(tag.id);
   }
   return ids;

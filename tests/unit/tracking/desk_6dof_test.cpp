@@ -72,7 +72,7 @@ class Desk6dof : public testing::Test {
          next = movie->next(hal::kNoDeadline), ++index) {
       const auto& frame = std::get<hal::CapturedFrame>(next);
       ASSERT_LT(index, desk.frames.size());
-      judge(tracker.track(frame.image, frame.captureTime), desk.frames[index]);
+      judge(tracker.track(frame.image.map().view(), frame.captureTime), desk.frames[index]);
     }
     EXPECT_EQ(index, desk.frames.size());
   }

@@ -25,8 +25,7 @@ void main() {
   vec3 ray = rayThrough(vec2(pixel) + 0.5);
   vec4 moved = vec4(0.0);
   float nearest = 0.0;
-  for (int i = 0; i < kMaxPlanes; ++i) {
-    if (i >= planeCount) break;
+  for (int i = 0; i < planeCount; ++i) {
     vec3 hit = hitOf(planes[i].current, planes[i].extent.xy, ray);
     vec3 current = hit.z * ray;
     vec3 previous = transformed(planes[i].previous, vec3(hit.xy, 0.0));

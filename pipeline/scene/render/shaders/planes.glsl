@@ -10,9 +10,9 @@ const int kMaxPlanes = 8;  // scene::kMaxPlanes
 vec3 rayThrough(vec2 px) {
   vec2 bent = (px - centre) / focal;
   vec2 p = bent;
-  if (radial != vec3(0.0) || tangential != vec2(0.0) || radialBelow != vec3(0.0)) {
-    for (int i = 0; i < 12; ++i) p = bent - lensShift(p);
-  }
+  bool isBent = radial != vec3(0.0) || tangential != vec2(0.0) || radialBelow != vec3(0.0);
+  int rounds = isBent ? 12 : 0;
+  for (int i = 0; i < rounds; ++i) p = bent - lensShift(p);
   return vec3(p, 1.0);
 }
 

@@ -15,12 +15,11 @@ void main() {
   float key = 0.0;
   float heights = 0.0;
   float contact = 0.0;
-  for (int i = -kReach; i <= kReach; ++i) {
-    int x = texel.x + i;
-    if (x < 0 || x >= width) continue;
+  int last = min(texel.x + kReach, width - 1);
+  for (int x = max(texel.x - kReach, 0); x <= last; ++x) {
     vec2 caster = texelFetch(map, ivec2(x, texel.y), 0).rg;
     if (caster.r == 0.0) continue;
-    float distance = abs(float(i));
+    float distance = abs(float(x - texel.x));
     float weight = keyWeight(distance, caster.g);
     float low = max(0.0, 1.0 - caster.g / contactHeight);
     key += weight;

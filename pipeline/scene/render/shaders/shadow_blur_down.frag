@@ -13,11 +13,10 @@ void main() {
   ivec2 size = textureSize(map, 0);
   float key = 0.0;
   float contact = 0.0;
-  for (int i = -kReach; i <= kReach; ++i) {
-    int y = texel.y + i;
-    if (y < 0 || y >= size.y) continue;
+  int last = min(texel.y + kReach, size.y - 1);
+  for (int y = max(texel.y - kReach, 0); y <= last; ++y) {
     vec3 row = texelFetch(map, ivec2(texel.x, y), 0).rgb;
-    float distance = abs(float(i));
+    float distance = abs(float(y - texel.y));
     key += keyWeight(distance, row.g) * row.r;
     contact += contactWeight(distance) * row.b;
   }

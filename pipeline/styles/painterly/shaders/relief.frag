@@ -1,20 +1,23 @@
 // Purpose: light on the relief of the paint and its canvas, once per pixel; content in focus stays
 //          sharp.
-// Inputs:  colours, heights (stroke_mark.glsl); substrate.glsl's: the canvas; frame, normalFocus if
-//          hasFocus; relief, gloss, weave: the weight of each; tooth: how much the substrate's
-//          grain keeps paint from its hollows, where the washed ground shows, but not from those
-//          under movers, which would glide over it; mover_labels.glsl's; pixelsOfFull; palette:
-//          saturation, warmth.
+// Inputs:  colours, heights (stroke_mark.glsl); ids (ArFrame) if hasObjects; substrate.glsl's: the
+//          canvas; frame, normalFocus if hasFocus; relief, gloss, weave: the weight of each; tooth:
+//          how much the substrate's grain keeps paint from its hollows, where the washed ground
+//          shows, but not from those under movers, which would glide over it; mover_labels.glsl's;
+//          pixelsOfFull; palette: saturation, warmth.
 // Outputs: RGBA8, sRGB-coded, opaque.
 // Precision: highp for places.
 #include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/styles/strokes/shaders/paint_light.glsl"
 #include "pipeline/styles/substrate/shaders/substrate.glsl"
 uniform sampler2D colours;
 uniform sampler2D heights;
 uniform sampler2D frame;
 uniform sampler2D normalFocus;
+uniform highp usampler2D ids;
+uniform bool hasObjects;
 uniform bool hasFocus;
 uniform float relief;
 uniform float gloss;
@@ -26,6 +29,9 @@ uniform float wash;
 uniform float saturation;
 uniform float warmth;
 layout(location = 0) out vec4 picture;
+
+// Strokes that go with a model or a mover change the relief of each pixel, which glitters.
+const float kCarriedRelief = 0.75;
 
 // Dry paint stays on the substrate's heights; more paint reaches deeper.
 float caught(float height, float amount) {
@@ -45,6 +51,9 @@ void main() {
   float se = texture(heights, place + vec2(0.7, 0.7) * texel).r;
   float here = 0.25 * (nw + ne + sw + se);
   vec2 slope = 0.5 * vec2(ne + se - nw - sw, sw + se - nw - ne) * relief;
+  float moving = movingAt(gl_FragCoord.xy / pixelsOfFull);
+  bool isModel = hasObjects && isVirtual(objectOf(texelFetch(ids, p, 0).r));
+  slope *= mix(1.0, kCarriedRelief, isModel ? 1.0 : moving);
   vec3 normal = normalize(vec3(-slope, 1.0));
   float lit = litBy(normal);
   vec4 substrate = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
@@ -52,7 +61,7 @@ void main() {
   // A loop that no invocation enters costs nothing on software renderers.
   for (int i = tooth > 0.0 ? 0 : 1; i < 1; ++i) {
     float bare = 1.0 - caught(substrate.r, texelFetch(heights, p, 0).g);
-    bare *= tooth * (1.0 - movingAt(gl_FragCoord.xy / pixelsOfFull));
+    bare *= tooth * (1.0 - moving);
     rgb = mix(rgb, ground, bare * (1.0 - wash));
   }
   float luma = lumaOf(rgb);

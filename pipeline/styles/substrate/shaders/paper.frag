@@ -1,26 +1,38 @@
 // Purpose: one seamless tile of watercolor paper, rendered once.
-// Inputs:  none.
+// Inputs:  those of tile_noise.glsl.
 // Outputs: RGBA8: R height of cold-pressed paper, G light from the top left on that relief (0.5 is
 //          flat), B and A a slow wander in x and y (0.5 is none).
 // Precision: highp.
 #include "pipeline/styles/substrate/shaders/tile_noise.glsl"
 layout(location = 0) out vec4 paper;
 
-// Bumps of the felt, tooth and single fibres. The domain warp breaks up the lattice.
+// Of the slow octave, felt, tooth and single fibres, after the two of the domain warp, which breaks
+// up the lattice.
+const int kSpacing[6] = int[6](16, 16, 32, 8, 4, 2);
+const uint kSalt[6] = uint[6](11u, 12u, 4u, 1u, 2u, 3u);
+const float kWeight[6] = float[6](2.4, 2.4, 0.08, 0.2, 0.26, 0.16);
+
 float heightAt(vec2 at) {
-  vec2 bent = at + 2.4 * vec2(noise(at, 16, 11u), noise(at, 16, 12u));
-  float slow = noise(at, 32, 4u);
-  float felt = noise(bent, 8, 1u);
-  float tooth = noise(bent, 4, 2u);
-  float fine = noise(bent + 0.37, 2, 3u);
-  return 0.5 + 0.08 * slow + 0.2 * felt + 0.26 * tooth + 0.16 * fine;
+  vec2 bent = at;
+  float height = 0.5;
+  for (int i = 0; i < 6 * one; ++i) {
+    vec2 place = i < 3 ? at : i < 5 ? bent : bent + 0.37;
+    float part = kWeight[i] * noise(place, kSpacing[i], kSalt[i]);
+    bent += i == 0 ? vec2(part, 0.0) : i == 1 ? vec2(0.0, part) : vec2(0.0);
+    height += i < 2 ? 0.0 : part;
+  }
+  return height;
 }
 
 void main() {
   vec2 at = gl_FragCoord.xy;
-  float height = heightAt(at);
-  float slope = heightAt(at + vec2(1.0)) - heightAt(at - vec2(1.0));
-  vec2 wander = vec2(noise(at, 16, 5u), noise(at, 16, 6u)) +
-                0.5 * vec2(noise(at, 8, 7u), noise(at, 8, 8u));
-  paper = vec4(height, 0.5 + 0.5 * slope, 0.5 + 0.4 * wander);
+  float height = 0.0;
+  float slope = 0.0;
+  for (int i = 0; i < 3 * one; ++i) {
+    float side = i == 0 ? 0.0 : i == 1 ? 1.0 : -1.0;
+    float there = heightAt(at + side);
+    height = i == 0 ? there : height;
+    slope += side * there;
+  }
+  paper = vec4(height, 0.5 + 0.5 * slope, 0.5 + 0.4 * wanderAt(at));
 }

@@ -18,18 +18,15 @@ void main() {
   ivec2 corner = ivec2(gl_GlobalInvocationID.xy) * kBlockSide;
   if (any(greaterThanEqual(corner, size))) return;
 
-  uint cell[kBlockPixels];  // as in a tiling word, plus one; 0 beyond the border
-  uvec4 first[kBlockPixels];
-  uvec4 second[kBlockPixels];
+  uint cell[kBlockPixels];     // as in a tiling word, plus one; 0 beyond the border
+  uint colours[kBlockPixels];  // packed: what the sums add up is made anew for each cell
   for (int i = 0; i < kBlockPixels; ++i) {
     ivec2 p = corner + inBlock(i);
     bool inside = all(lessThan(p, size));
     uint word = texelFetch(tiling, min(2 * p + 1, last), 0).r;
     cell[i] = inside ? slotOf(word) + 1u : 0u;
     uvec3 c = uvec3(texelFetch(guide, min(p, size - 1), 0).rgb * 255.0 + 0.5);
-    uint luma = momentLuma(c);
-    first[i] = uvec4(c, 1u);
-    second[i] = uvec4(c * luma, (((luma * luma) >> 2u) * luma + 1024u) >> 11u);
+    colours[i] = c.r | (c.g << 8u) | (c.b << 16u);
   }
 
   for (uint above = 0xFFFFFFFFu;;) {
@@ -40,8 +37,12 @@ void main() {
     uvec4 b = uvec4(0u);
     for (int i = 0; i < kBlockPixels; ++i) {
       uint taken = cell[i] == name ? 0xFFFFFFFFu : 0u;
-      a += first[i] & taken;
-      b += second[i] & taken;
+      // Black counts nothing but itself.
+      uint colour = colours[i] & taken;
+      uvec3 c = uvec3(colour, colour >> 8u, colour >> 16u) & 0xFFu;
+      uint luma = momentLuma(c);
+      a += uvec4(c, taken & 1u);
+      b += uvec4(c * luma, (((luma * luma) >> 2u) * luma + 1024u) >> 11u);
     }
     uint base = (name - 1u) * uint(kMomentWords);
     for (uint k = 0u; k < 4u; ++k) {

@@ -33,6 +33,8 @@ const float kHalfDiagonal = 2.1213204;  // between the block's middle and its co
 ivec2 size;
 ivec2 corner;  // the block's first pixel
 uint nearest[kBlockPixels];  // the slot, plus one
+uint edges;   // a bit for each edge pixel
+uvec4 codes;  // strengths of edges, 8 bits for each pixel of a row, as codeOf() makes them
 
 vec2 middle() { return vec2(corner) + 2.0; }
 
@@ -98,8 +100,8 @@ ivec2 inPicture(ivec2 at) { return clamp(at, ivec2(0), size - 1); }
 
 // One direction's part of eq. 2 and 3, which are sums over the two directions of ∇. YUV is ITU-R
 // BT.601's Y', Cb, Cr.
-float differenceOf(vec4 a, vec4 b) {
-  vec3 d = a.rgb - b.rgb;
+float differenceOf(vec3 a, vec3 b) {
+  vec3 d = a - b;
   float y = lumaOf(d);
   float u = (d.b - y) * (1.0 / 1.772);
   float v = (d.r - y) * (1.0 / 1.402);
@@ -108,13 +110,77 @@ float differenceOf(vec4 a, vec4 b) {
   return (beta * yuv + (1.0 - beta) * rgb) * 0.5;
 }
 
+// Whether objects meet at a pixel: a bit for each pixel of the block. Row by row, in a loop that
+// compilers do not unroll, so that two rows are held and not six; findEdges() likewise.
+uint silhouettesOf() {
+  uint met = 0u;
+  uvec4 above = uvec4(0u);
+  uvec4 here = uvec4(0u);
+  uint beside = 0u;
+  int rows = min(kBlockSide, size.y - corner.y);
+  for (int row = -1; row <= rows; ++row) {
+    uint objects[kBlockSide + 2];
+    for (int x = 0; x < kBlockSide + 2; ++x) {
+      uint id = texelFetch(ids, inPicture(corner + ivec2(x - 1, row)), 0).r;
+      uint object = objectOf(id);
+      objects[x] = object < kRealObject ? object : 0u;  // real content has its own edges
+    }
+    uvec4 below = uvec4(objects[1], objects[2], objects[3], objects[4]);
+    if (row > 0) {
+      for (int x = 0; x < kBlockSide; ++x) {
+        bool isMet = below[x] != above[x] || (beside >> x & 1u) != 0u;
+        met |= isMet ? 1u << (kBlockSide * (row - 1) + x) : 0u;
+      }
+    }
+    above = here;
+    here = below;
+    beside = 0u;
+    for (int x = 0; x < kBlockSide; ++x) beside |= objects[x] != objects[x + 2] ? 1u << x : 0u;
+  }
+  return met;
+}
+
+// Finds `edges` and `codes`.
+void findEdges() {
+  uint silhouettes = hasObjects ? silhouettesOf() : 0u;
+  edges = 0u;
+  codes = uvec4(0u);
+  vec3 above[kBlockSide];
+  vec3 here[kBlockSide];
+  vec4 across = vec4(0.0);
+  for (int x = 0; x < kBlockSide; ++x) above[x] = here[x] = vec3(0.0);
+  int rows = min(kBlockSide, size.y - corner.y);
+  for (int row = -1; row <= rows; ++row) {
+    vec3 colours[kBlockSide + 2];
+    for (int x = 0; x < kBlockSide + 2; ++x) {
+      colours[x] = texelFetch(picture, inPicture(corner + ivec2(x - 1, row)), 0).rgb;
+    }
+    if (row > 0) {
+      uint code = 0u;
+      for (int x = 0; x < kBlockSide; ++x) {
+        uint pixel = 1u << (kBlockSide * (row - 1) + x);
+        float strength = across[x] + differenceOf(colours[x + 1], above[x]);
+        bool silhouette = (silhouettes & pixel) != 0u;
+        edges |= strength > threshold || silhouette ? pixel : 0u;
+        code |= codeOf(silhouette ? 1.0 : strength) << (8 * x);
+      }
+      codes[row - 1] = code;
+    }
+    for (int x = 0; x < kBlockSide; ++x) {
+      above[x] = here[x];
+      here[x] = colours[x + 1];
+      across[x] = differenceOf(colours[x + 2], colours[x]);
+    }
+  }
+}
+
 void addColour(uint index, uvec3 colour) {
   atomicAdd(sums[index], colour.r);
   atomicAdd(sums[index + 1u], colour.g);
   atomicAdd(sums[index + 2u], colour.b);
 }
 
-// `places`: sums of x and y in the block, and the count, packed as in `place`.
+// `places`: sums of x and y in the block, and the count, packed: 8 bits each, the count from bit 16.
 void addPlaces(uint places, uint x, uint y, uint count) {
   uint number = places >> 16u;
   atomicAdd(sums[x], (places & 0xFFu) + number * uint(corner.x));
@@ -126,36 +192,15 @@ void main() {
   size = textureSize(picture, 0);
   corner = ivec2(gl_GlobalInvocationID.xy) * kBlockSide;
   if (any(greaterThanEqual(corner, size))) return;
+  findEdges();
   findNearest();
 
-  vec4 block[36];  // colours, and objects in alpha
-  ivec2 first = corner - 1;
-  for (int i = 0; i < 36; ++i) {
-    vec3 colour = texelFetch(picture, inPicture(first + ivec2(i % 6, i / 6)), 0).rgb;
-    block[i] = vec4(colour, 0.0);
-  }
-  if (hasObjects) {
-    for (int i = 0; i < 36; ++i) {
-      uint id = texelFetch(ids, inPicture(first + ivec2(i % 6, i / 6)), 0).r;
-      uint object = objectOf(id);
-      block[i].a = object < kRealObject ? float(object) : 0.0;  // real content has its own edges
-    }
-  }
-
-  uint place[kBlockPixels];  // x, y in the block and 1, 8 bits each
-  uint edge[kBlockPixels];   // the same of an edge pixel
   for (int i = 0; i < kBlockPixels; ++i) {
-    int at = (i >> 2) * 6 + (i & 3) + 7;
-    ivec2 here = inBlock(i);
-    float strength = differenceOf(block[at + 1], block[at - 1]) +
-                     differenceOf(block[at + 6], block[at - 6]);
-    bool silhouette = block[at + 1].a != block[at - 1].a || block[at + 6].a != block[at - 6].a;
-    bool isEdge = strength > threshold || silhouette;
-    place[i] = uint(here.x | (here.y << 8) | (1 << 16));
-    edge[i] = isEdge ? place[i] : 0u;
-    uint word = packTiling(nearest[i] - 1u, isEdge, silhouette ? 1.0 : strength);
-    imageStore(tiling, corner + here, uvec4(word, 0u, 0u, 0u));  // no effect beyond the border
-    if (any(greaterThanEqual(corner + here, size))) nearest[i] = 0u;
+    ivec2 here = corner + inBlock(i);
+    uint code = codes[i >> 2] >> (8 * (i & 3)) & 0xFFu;
+    uint word = packTiling(nearest[i] - 1u, (edges >> i & 1u) != 0u, code);
+    imageStore(tiling, here, uvec4(word, 0u, 0u, 0u));  // no effect beyond the border
+    if (any(greaterThanEqual(here, size))) nearest[i] = 0u;
   }
 
   // Cell by cell, from the highest down, without branches.
@@ -164,19 +209,21 @@ void main() {
     for (int i = 0; i < kBlockPixels; ++i) name = max(name, nearest[i] < above ? nearest[i] : 0u);
     if (name == 0u) break;
     uint places = 0u;
-    uint edges = 0u;
+    uint edgePlaces = 0u;
     for (int i = 0; i < kBlockPixels; ++i) {
-      places += nearest[i] == name ? place[i] : 0u;
-      edges += nearest[i] == name ? edge[i] : 0u;
+      ivec2 here = inBlock(i);
+      uint place = nearest[i] == name ? uint(here.x | (here.y << 8) | (1 << 16)) : 0u;
+      places += place;
+      edgePlaces += (edges >> i & 1u) != 0u ? place : 0u;
     }
     uint index = (name - 1u) * uint(kSumWords);
     addPlaces(places, index + 7u, index + 8u, index + 3u);
-    if (edges != 0u) addPlaces(edges, index + 4u, index + 5u, index + 6u);
+    if (edgePlaces != 0u) addPlaces(edgePlaces, index + 4u, index + 5u, index + 6u);
     if (wantsMeans) {
       uvec3 colour = uvec3(0u);
       for (int i = 0; i < kBlockPixels; ++i) {
         uint taken = nearest[i] == name ? 0xFFFFFFFFu : 0u;
-        vec3 srgb = block[(i >> 2) * 6 + (i & 3) + 7].rgb;
+        vec3 srgb = texelFetch(picture, inPicture(corner + inBlock(i)), 0).rgb;
         colour += uvec3(linearFromSrgbFast(srgb) * kLinearUnits + 0.5) & taken;
       }
       addColour(index, colour);

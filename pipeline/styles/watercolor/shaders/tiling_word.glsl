@@ -6,9 +6,10 @@
 const uint kSlotBits = 0x3FFFFFu;
 const uint kEdgeBit = 0x400000u;
 
-uint packTiling(uint slot, bool isEdge, float strength) {
-  uint coded = uint(sqrt(min(strength, 1.0)) * 255.0 + 0.5);
-  return slot | (isEdge ? kEdgeBit : 0u) | (coded << 24u);
+// The upper 8 bits.
+uint codeOf(float strength) { return uint(sqrt(min(strength, 1.0)) * 255.0 + 0.5); }
+uint packTiling(uint slot, bool isEdge, uint code) {
+  return slot | (isEdge ? kEdgeBit : 0u) | (code << 24u);
 }
 uint slotOf(uint word) { return word & kSlotBits; }
 bool isEdge(uint word) { return (word & kEdgeBit) != 0u; }

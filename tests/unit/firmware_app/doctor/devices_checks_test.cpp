@@ -147,7 +147,19 @@ TEST(CheckDisplays, NamesTheFirstThatIsPluggedIn) {
   HealthyMachine machine;
   const Finding finding = checkDisplays(machine.probes());
   EXPECT_EQ(finding.verdict, Verdict::kOk);
-  EXPECT_EQ(finding.text, "display:card0-HDMI-A-1, 1920x1080");
+  EXPECT_EQ(finding.text,
+            "display:card0-HDMI-A-1, 1920x1080; the GPU draws straight into its memory, "
+            "rows (linear) (trial: 120 ms)");
+}
+
+TEST(CheckDisplays, SaysWhyPicturesAreCopied) {
+  HealthyMachine machine;
+  machine.scanOut = {.isDirect = false,
+                     .reason = "GPU: shares no memory with displays",
+                     .took = std::chrono::milliseconds(3)};
+  const Finding finding = checkDisplays(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kOk);
+  EXPECT_THAT(finding.text, HasSubstr("pictures are copied: GPU: shares no memory"));
 }
 
 TEST(CheckDisplays, WarnsWithoutADisplay) {
@@ -176,6 +188,34 @@ TEST(CheckDisplays, AsksForTheGroup) {
   const Finding finding = checkDisplays(machine.probes());
   EXPECT_EQ(finding.verdict, Verdict::kWrong);
   EXPECT_THAT(finding.remedy, HasSubstr("usermod -aG video"));
+}
+
+TEST(CheckDisplayTiming, TellsTheModeThatWouldBeSet) {
+  HealthyMachine machine;
+  const Finding finding = checkDisplayTiming(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kOk);
+  EXPECT_EQ(finding.text, "1920x1080 at 59.94 Hz, of which each refresh is counted");
+}
+
+TEST(CheckDisplayTiming, WarnsOfADriverWithoutVerticalBlanking) {
+  HealthyMachine machine;
+  machine.displayTiming->hasVblank = false;
+  const Finding finding = checkDisplayTiming(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kWarning);
+  EXPECT_THAT(finding.text, HasSubstr("no vertical blanking"));
+  EXPECT_FALSE(finding.remedy.empty());
+}
+
+TEST(CheckDisplayTiming, WarnsOfADisplayThatCannotBeShownOnButNotOfNone) {
+  HealthyMachine machine;
+  machine.displayTiming = tl::unexpected(hal::Error{.kind = hal::ErrorKind::kUnsupported,
+                                                    .problem = "no plane takes XRGB8888",
+                                                    .remedy = "another card"});
+  EXPECT_EQ(checkDisplayTiming(machine.probes()).verdict, Verdict::kWarning);
+  EXPECT_EQ(checkDisplayTiming(machine.probes()).remedy, "another card");
+  machine.displayTiming =
+      tl::unexpected(errorOf(hal::ErrorKind::kDeviceLost, "no display is plugged in"));
+  EXPECT_EQ(checkDisplayTiming(machine.probes()).verdict, Verdict::kOk);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ TEST(Findings, AreJson) {
 TEST(Examine, FindsAHealthyMachineWell) {
   HealthyMachine machine;
   const std::vector<Finding> findings = examine(machine.probes());
-  EXPECT_EQ(findings.size(), 16u);
+  EXPECT_EQ(findings.size(), 19u);
   for (const Finding& each : findings) {
     EXPECT_EQ(each.verdict, Verdict::kOk) << each.check << ": " << each.text;
     EXPECT_FALSE(each.text.empty()) << each.check;

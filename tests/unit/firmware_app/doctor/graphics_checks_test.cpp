@@ -36,6 +36,17 @@ TEST(CheckGraphics, IsWrongWithoutAContext) {
   EXPECT_THAT(finding.remedy, HasSubstr("apt install libegl1"));
 }
 
+TEST(CheckFrameImport, TellsThePathTheReasonAndTheTime) {
+  HealthyMachine machine;
+  const Finding imported = checkFrameImport(machine.probes());
+  EXPECT_EQ(imported.text, "the GPU reads them in shared memory (heap; trial: 80 ms)");
+  machine.frameImport = {.reason = "vgem: its module is not loaded",
+                         .took = std::chrono::milliseconds(3)};
+  const Finding uploaded = checkFrameImport(machine.probes());
+  EXPECT_EQ(uploaded.verdict, Verdict::kOk) << "it paints the same";
+  EXPECT_EQ(uploaded.text, "are uploaded: vgem: its module is not loaded (trial: 3 ms)");
+}
+
 TEST(CheckRenderNodes, TakesTheFirstThatMayBeUsed) {
   HealthyMachine machine;
   EXPECT_EQ(checkRenderNodes(machine.probes()).text, "/dev/dri/renderD128");

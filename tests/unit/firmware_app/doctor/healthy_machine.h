@@ -31,6 +31,8 @@ struct HealthyMachine {
   std::optional<std::uint64_t> freeBytes = 20'000'000'000;
   hal::Result<gpu::ContextInfo> graphics =
       gpu::ContextInfo{.renderer = "Mali-G52", .version = "OpenGL ES 3.2 Mesa 22.3.6"};
+  FrameImportVerdict frameImport{
+      .isImported = true, .reason = "heap", .took = std::chrono::milliseconds(80)};
   DeviceCameras cameras{
       .cameras = {{.identity = {.backend = "v4l2", .id = "usb-1", .description = "C920"},
                    .node = "/dev/video0",
@@ -43,6 +45,10 @@ struct HealthyMachine {
   hal::OutputListing displays{
       .outputs = {{.target = "display:card0-HDMI-A-1", .formats = {"1920x1080"}}}};
   std::optional<hal::Error> displayProblem;
+  hal::Result<hal::DisplayTiming> displayTiming =
+      hal::DisplayTiming{.size = {1920, 1080}, .period = std::chrono::microseconds(16'683)};
+  ScanOutVerdict scanOut{
+      .isDirect = true, .reason = "rows (linear)", .took = std::chrono::milliseconds(120)};
   std::vector<ListedKeyboard> keyboards{
       {.description = {.node = "/dev/input/event2", .name = "AT keyboard", .isKeyboard = true}}};
   std::optional<std::string> configurationError;
@@ -60,10 +66,13 @@ struct HealthyMachine {
             .freeBytes = [this](const auto&) { return freeBytes; },
             .limit = [this](int resource) { return limits.at(resource); },
             .graphics = [this] { return graphics; },
+            .frameImport = [this] { return frameImport; },
             .cameras = [this] { return cameras; },
             .loopbacks = [this] { return loopbacks; },
             .displays = [this] { return displays; },
             .displayProblem = [this] { return displayProblem; },
+            .displayTiming = [this] { return displayTiming; },
+            .scanOut = [this] { return scanOut; },
             .keyboards = [this] { return keyboards; },
             .configurationError = [this] { return configurationError; },
             .requested = [this] { return requested; },

@@ -40,7 +40,10 @@ class LiveKeysTest : public testing::Test {
   hal::SteppedClock clock_{hal::TimePoint(std::chrono::seconds(100))};
   support::FakeKeyboards devices_;
   support::FakeKeyboard& keyboard_;
-  LiveTuning tuning_{"brush", {.style = quill().defaults(), .view = {}}, {{"cells", ""}}, {}};
+  LiveTuning tuning_{{{.name = "brush",
+                       .start = {.style = quill().defaults(), .view = {}},
+                       .views = {{"cells", ""}},
+                       .looks = {}}}};
   LiveKeys keys_{{}, devices_, tuning_, clock_};
 };
 

@@ -37,10 +37,14 @@ std::vector<LiveLook> looks() {
           {"wet", brush().defaults().with("water", "0.9", "look wet").with("size", "20", "look")}};
 }
 
+LiveStyle brushStyle(PaintParameters start, std::vector<LiveLook> looks = app::looks()) {
+  return {.name = "brush", .start = std::move(start), .views = kViews, .looks = std::move(looks)};
+}
+
 class Tuning : public testing::Test {
  protected:
   explicit Tuning(std::vector<LiveLook> looks = app::looks())
-      : tuning_("brush", {.style = brush().defaults(), .view = {}}, kViews, std::move(looks)) {}
+      : tuning_({brushStyle({.style = brush().defaults(), .view = {}}, std::move(looks))}) {}
 
   Request press(const std::string& name, bool shift = false, bool isRepeat = false) {
     return tuning_.press({.name = name, .shift = shift, .isRepeat = isRepeat});
@@ -54,6 +58,16 @@ class Tuning : public testing::Test {
   LiveTuning tuning_;
 };
 
+TEST_F(Tuning, TakesOtherParametersAsAtTheStart) {
+  press("tab");
+  const auto wet = looks()[1].values;
+  tuning_.setParameters("brush", {.style = wet, .view = "cells"});
+  EXPECT_EQ(tuning_.parameters().style, wet);
+  EXPECT_EQ(tuning_.parameters().view, "cells");
+  EXPECT_THAT(tuning_.state(), HasSubstr("wet"));
+  EXPECT_EQ(chosen(), "water") << "the choice stays";
+}
+
 TEST_F(Tuning, StartsWithWhatItIsGiven) {
   EXPECT_EQ(tuning_.parameters().style, brush().defaults());
   EXPECT_EQ(tuning_.parameters().view, "");
@@ -61,6 +75,38 @@ TEST_F(Tuning, StartsWithWhatItIsGiven) {
   EXPECT_FALSE(tuning_.showsHelp());
   EXPECT_EQ(tuning_.state(), "brush · dry");
   EXPECT_EQ(tuning_.parameterLine(), "size 8 px  (4 to 64)  Of the brush.");
+}
+
+TEST_F(Tuning, NamesTheOptionsThatPaintTheSame) {
+  using testing::ElementsAre;
+  EXPECT_THAT(tuning_.arguments(),
+              ElementsAre("--style", "brush", "--look", "dry", "--view", "finished"));
+  press("l");
+  press("right");
+  press("v");
+  EXPECT_THAT(tuning_.arguments(), ElementsAre("--style", "brush", "--look", "wet", "--set",
+                                               "size=21", "--view", "camera"));
+}
+
+TEST(TuningOfAConfiguration, RepeatsWhatTheConfigurationGave) {
+  LiveTuning tuning({brushStyle(
+      {.style = brush().defaults().with("water", "0.7", "site.toml:3"), .view = {}}, {})});
+  EXPECT_THAT(tuning.arguments(),
+              testing::ElementsAre("--style", "brush", "--set", "water=0.7", "--view", "finished"));
+  tuning.press({.name = "tab"});
+  tuning.press({.name = "backspace"});
+  EXPECT_THAT(tuning.arguments(), testing::Contains("water=0.5")) << "or the file's would count";
+}
+
+TEST_F(Tuning, GivesItsValuesAsALookFile) {
+  press("l");
+  press("right");
+  const std::string file = tuning_.lookFile();
+  EXPECT_THAT(file, HasSubstr("[painting]\nstyle = \"brush\"\n"));
+  EXPECT_THAT(file, HasSubstr("[style.brush]\n"));
+  EXPECT_THAT(file, HasSubstr("\nsize = 21  # a key\n"));
+  EXPECT_THAT(file, HasSubstr("\nwater = 0.9  # look wet\n"));
+  EXPECT_THAT(file, testing::Not(HasSubstr("paper = ")));
 }
 
 TEST_F(Tuning, ChoosesParametersRoundAndRoundButThoseThatAreNotLive) {
@@ -197,15 +243,60 @@ TEST_F(Tuning, RepeatsOnlyWhatCanBeHeld) {
 }
 
 TEST_F(Tuning, HelpNamesEveryKey) {
-  for (const std::string key : {"Tab", "Down", "Left", "Right", "Shift", "Backspace", "l", "v",
+  for (const std::string key : {"Tab", "Down", "Left", "Right", "Shift", "Backspace", "l", "t", "v",
                                 "Space", "s", "f", "h", "?", "q", "Escape"}) {
     EXPECT_THAT(LiveTuning::help(), HasSubstr(key));
   }
 }
 
+/// Brush and pen, with a view and values of their own.
+std::vector<LiveStyle> twoStyles() {
+  return {brushStyle({.style = brush().defaults(), .view = {}}),
+          {.name = "pen",
+           .start = {.style = brush().defaults().with("size", "5", "site.toml:2"), .view = {}},
+           .views = {{"camera", ""}, {"lines", ""}},
+           .looks = {}}};
+}
+
+TEST(TuningOfStyles, GoesRoundTheStylesWhichKeepWhatWasTuned) {
+  LiveTuning tuning(twoStyles());
+  tuning.press({.name = "right"});
+  EXPECT_EQ(tuning.press({.name = "t"}), Request::kNone);
+  EXPECT_EQ(tuning.styleName(), "pen");
+  EXPECT_EQ(tuning.state(), "pen");
+  EXPECT_EQ(brush().typed(tuning.parameters().style).size, 5) << "as it is configured";
+  EXPECT_THAT(tuning.arguments(),
+              testing::ElementsAre("--style", "pen", "--set", "size=5", "--view", "finished"));
+  EXPECT_THAT(tuning.lookFile(), HasSubstr("style = \"pen\""));
+  tuning.press({.name = "t", .shift = true});
+  EXPECT_EQ(tuning.styleName(), "brush");
+  EXPECT_EQ(brush().typed(tuning.parameters().style).size, 9) << "as it was left";
+  tuning.press({.name = "t"});
+  tuning.press({.name = "t"});
+  EXPECT_EQ(tuning.styleName(), "brush") << "round and round";
+}
+
+TEST(TuningOfStyles, KeepsTheViewWhereTheNextStyleHasIt) {
+  LiveTuning tuning(twoStyles(), 1);
+  tuning.press({.name = "v"});
+  tuning.press({.name = "t"});
+  EXPECT_EQ(tuning.parameters().view, "camera");
+  tuning.press({.name = "v"});
+  EXPECT_EQ(tuning.parameters().view, "cells");
+  tuning.press({.name = "t"});
+  EXPECT_EQ(tuning.parameters().view, "") << "a pen has no cells";
+}
+
+TEST(TuningOfStyles, GoesBackToTheStyleOfTheConfiguration) {
+  LiveTuning tuning(twoStyles());
+  tuning.press({.name = "t"});
+  tuning.setParameters("brush", {.style = brush().defaults(), .view = {}});
+  EXPECT_EQ(tuning.state(), "brush · dry");
+}
+
 TEST(TuningStart, WearsNoLookWhereValuesWereSet) {
-  LiveTuning tuning("brush", {.style = brush().defaults().with("size", "10", "--set"), .view = {}},
-                    kViews, looks());
+  LiveTuning tuning(
+      {brushStyle({.style = brush().defaults().with("size", "10", "--set"), .view = {}})});
   EXPECT_EQ(tuning.state(), "brush");
   tuning.press({.name = "backspace"});
   EXPECT_EQ(brush().typed(tuning.parameters().style).size, 8) << "the style's default";
@@ -214,14 +305,14 @@ TEST(TuningStart, WearsNoLookWhereValuesWereSet) {
 }
 
 TEST(TuningStart, GoesBackToTheLastLookFirst) {
-  LiveTuning tuning("brush", {.style = brush().defaults().with("size", "10", "--set"), .view = {}},
-                    kViews, looks());
+  LiveTuning tuning(
+      {brushStyle({.style = brush().defaults().with("size", "10", "--set"), .view = {}})});
   tuning.press({.name = "l", .shift = true});
   EXPECT_EQ(tuning.state(), "brush · wet");
 }
 
 TEST(TuningStart, KeepsTheViewThatWasAskedFor) {
-  LiveTuning tuning("brush", {.style = brush().defaults(), .view = "cells"}, kViews, looks());
+  LiveTuning tuning({brushStyle({.style = brush().defaults(), .view = "cells"})});
   EXPECT_EQ(tuning.parameters().view, "cells");
   tuning.press({.name = "v"});
   EXPECT_EQ(tuning.parameters().view, "");
@@ -231,7 +322,8 @@ TEST(TuningStart, DoesWithoutLooksAndParameters) {
   const auto none =
       std::make_shared<const config::ParameterList>(std::vector<config::ParameterDescriptor>{});
   const config::ParameterValues nothing(none);
-  LiveTuning tuning("none", {.style = nothing, .view = {}}, {}, {});
+  LiveTuning tuning(
+      {{.name = "none", .start = {.style = nothing, .view = {}}, .views = {}, .looks = {}}});
   EXPECT_EQ(tuning.parameterLine(), "none has nothing to tune");
   for (const std::string key : {"tab", "up", "left", "right", "backspace", "l", "v"}) {
     EXPECT_EQ(tuning.press({.name = key}), Request::kNone) << key;

@@ -29,11 +29,13 @@ class FakeWindow final : public hal::Window {
   }
   void setTitle(const std::string& text) override { title = text; }
   void setFullScreen(bool on) override { isFullScreen = on; }
+  void setClipboard(const std::string& text) override { clipboard = text; }
   hal::Result<hal::Image> shown() override { return hal::Image(); }
 
   std::vector<hal::WindowEvent> events;
   std::string caption;
   std::string title;
+  std::string clipboard;
   double opacity = 0.0;
   int redraws = 0;
   bool isFullScreen = false;
@@ -57,7 +59,10 @@ class LiveWindowTest : public testing::Test {
   FakeWindow window_;
   config::ParameterValues nothing_{
       std::make_shared<const config::ParameterList>(std::vector<config::ParameterDescriptor>{})};
-  LiveTuning tuning_{"brush", {.style = nothing_, .view = {}}, {{"cells", ""}}, {}};
+  LiveTuning tuning_{{{.name = "brush",
+                       .start = {.style = nothing_, .view = {}},
+                       .views = {{"cells", ""}},
+                       .looks = {}}}};
   LiveWindow live_{window_, tuning_, clock_};
 };
 
@@ -78,6 +83,15 @@ TEST_F(LiveWindowTest, SaysWhatAKeyChangedAndFades) {
   EXPECT_EQ(window_.opacity, 0.0);
   press("v");
   EXPECT_EQ(window_.opacity, 1.0);
+}
+
+TEST_F(LiveWindowTest, AsksForLookFilesAndCommandLines) {
+  EXPECT_TRUE(press("w").saveLook);
+  const LiveWindow::Requests requests = press("c");
+  EXPECT_TRUE(requests.commandLine);
+  EXPECT_FALSE(requests.saveLook);
+  live_.copy("pleinair run");
+  EXPECT_EQ(window_.clipboard, "pleinair run");
 }
 
 TEST_F(LiveWindowTest, StaysAwayForKeysThatMeanNothing) {

@@ -52,7 +52,7 @@ class ScreensTest : public testing::Test {
     };
     runtime::OutputStage& stage =
         pipeline_.addOutput(std::move(output), *format, std::move(options));
-    screens_.add(stage);
+    screens_.add(stage, true);
     return stage;
   }
   void update() {
@@ -121,6 +121,27 @@ TEST_F(ScreensTest, DrawAPictureOnceForEachThingThatIsAwaited) {
   runFor(3s);
   EXPECT_EQ(cards_.shown.size(), 1u) << "the camera: not again and again";
   EXPECT_EQ(cards_.modesets, 1);
+}
+
+TEST_F(ScreensTest, ShowThePictureAgainWhereThatIsAskedForAndCountWhatIsSeen) {
+  screens_.renewAfter(500ms);
+  runtime::OutputStage& stage = plug();
+  runFor(3s);
+  EXPECT_GE(cards_.shown.size(), 5u);
+  EXPECT_LE(cards_.shown.size(), 7u);
+  EXPECT_EQ(stage.status().waitingShown, cards_.shown.size());
+  EXPECT_TRUE(showsPaper());
+}
+
+TEST_F(ScreensTest, CountNothingWhereADisplayHangs) {
+  screens_.renewAfter(500ms);
+  support::FakeCardSpec spec;
+  spec.losesFlips = true;
+  runtime::OutputStage& stage = plug(std::move(spec));
+  const std::uint64_t steps = stage.status().steps;
+  runFor(3s);
+  EXPECT_EQ(stage.status().waitingShown, 0u);
+  EXPECT_GT(stage.status().steps, steps) << "though its thread turns";
 }
 
 TEST_F(ScreensTest, GoOverToPaintingsAndBack) {

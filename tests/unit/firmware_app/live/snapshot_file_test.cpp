@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <ctime>
 #include <fstream>
+#include <iterator>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -35,6 +37,18 @@ TEST_F(SnapshotFile, IsNamedForItsTimeAndHoldsThePicture) {
   EXPECT_EQ(saved->size(), picture.size());
   EXPECT_TRUE(std::ranges::equal(saved->plane(0), picture.plane(0)));
   EXPECT_EQ(folder_.entryCount(), 1u);
+}
+
+TEST_F(SnapshotFile, OfALookIsText) {
+  for (const char* name : {"pleinair-20250615-150640.toml", "pleinair-20250615-150640-2.toml"}) {
+    const auto path = saveLook(folder_.path(), "[painting]\n", kTime);
+    ASSERT_TRUE(path) << path.error().message();
+    EXPECT_EQ(*path, folder_.path() / name);
+    std::ifstream file(*path);
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "[painting]\n");
+  }
+  EXPECT_EQ(folder_.entryCount(), 2u);
+  EXPECT_FALSE(saveLook(folder_.path() / "absent", "", kTime));
 }
 
 TEST_F(SnapshotFile, NeverReplacesAnything) {

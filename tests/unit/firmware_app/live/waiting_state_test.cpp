@@ -16,9 +16,12 @@ constexpr hal::TimePoint kStart{100s};
 class WaitingStateTest : public testing::Test {
  protected:
   Awaited update(hal::TimePoint now) {
-    state_.update(
-        {.camera = camera_, .hasBegun = hasBegun_, .hasPainter = hasPainter_, .painted = painted_},
-        now);
+    state_.update({.camera = camera_,
+                   .hasBegun = hasBegun_,
+                   .hasPainter = hasPainter_,
+                   .isRenewing = isRenewing_,
+                   .painted = painted_},
+                  now);
     return state_.awaited(now);
   }
   void paint() {
@@ -30,6 +33,7 @@ class WaitingStateTest : public testing::Test {
   runtime::CaptureStage::Status camera_;
   bool hasBegun_ = false;
   bool hasPainter_ = false;
+  bool isRenewing_ = false;
   std::uint64_t painted_ = 0;
   WaitingState state_;
 };
@@ -44,6 +48,17 @@ TEST_F(WaitingStateTest, FollowsTheStartOfARun) {
   EXPECT_EQ(update(kStart + 91s), Awaited::kPainter) << "compiling may take long";
   hasBegun_ = hasPainter_ = true;
   EXPECT_EQ(update(kStart + 92s), Awaited::kNothing);
+}
+
+TEST_F(WaitingStateTest, TellsAPainterThatIsMadeAnewFromALostOne) {
+  paint();
+  EXPECT_EQ(update(kStart), Awaited::kNothing);
+  isRenewing_ = true;
+  EXPECT_EQ(update(kStart + 1s), Awaited::kNothing) << "the old one is finishing its frames";
+  hasPainter_ = false;
+  EXPECT_EQ(update(kStart + 2s), Awaited::kPainter);
+  isRenewing_ = false;
+  EXPECT_EQ(update(kStart + 3s), Awaited::kGpu);
 }
 
 TEST_F(WaitingStateTest, NamesTheCameraThatIsLostOrSilent) {

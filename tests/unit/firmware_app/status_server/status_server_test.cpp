@@ -1,20 +1,25 @@
 #include "firmware_app/status_server/status_server.h"
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
 #include <iterator>
 #include <memory>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/un.h>
 
+#include "tests/support/temporary_folder.h"
 #include "tests/unit/firmware_app/status_server/http_client.h"
 
 namespace pleinair::app {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -27,11 +32,46 @@ std::ptrdiff_t entriesOf(const char* folder) {
 class StatusServerTest : public testing::Test {
  protected:
   std::unique_ptr<StatusServer> start(const std::string& listen = "127.0.0.1:0") {
-    return startStatusServer(listen, {.json = [this] { return json_; },
+    return startStatusServer(listen, {.page = [] { return std::string("<!DOCTYPE html>"); },
+                                      .picture = [this] { return picture_; },
+                                      .json = [this] { return json_; },
                                       .metrics = [this] { return metrics_; },
                                       .healthy = [this] { return healthy_.load(); }});
   }
 
+  /// One that takes "next" and values.
+  std::unique_ptr<StatusServer> startCommanded() {
+    return startStatusServer(
+        "127.0.0.1:0",
+        {.page = [] { return std::string(); },
+         .picture = {},
+         .json = {},
+         .metrics = {},
+         .healthy = [] { return true; },
+         .commands = {.token = kToken, .take = [this](std::string_view text) -> hal::Result<void> {
+                        if (text == "nxt") {
+                          return tl::unexpected(hal::Error{.subject = "not this one"});
+                        }
+                        if (text == "busy") {
+                          return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kBusy});
+                        }
+                        taken_.emplace_back(text);
+                        return {};
+                      }}});
+  }
+  static std::string post(const StatusServer& server, const std::string& header,
+                          const std::string& body) {
+    HttpClient client(server.address());
+    client.send(
+        fmt::format("POST /procedure HTTP/1.1\r\nHost: x\r\n{}\r\nContent-Length: {}"
+                    "\r\n\r\n{}",
+                    header, body.size(), body));
+    return client.receiveAll();
+  }
+
+  static inline const std::string kToken = "0123456789abcdef";
+  std::vector<std::string> taken_;  ///< by the server's thread, before it answers
+  std::string picture_;
   std::string json_ = R"({"shown":12})";
   std::string metrics_ = "# TYPE pleinair_shown_total counter\npleinair_shown_total 12\n";
   std::atomic<bool> healthy_ = true;
@@ -48,6 +88,50 @@ TEST_F(StatusServerTest, ServesItsPages) {
   EXPECT_THAT(HttpClient::request(server->address(), "GET /status?x=1"), HasSubstr(json_));
 }
 
+TEST_F(StatusServerTest, ServesAtASocketThatWasPassed) {
+  hal::FileDescriptor listening(socket(AF_INET, SOCK_STREAM, 0));
+  ASSERT_EQ(listen(listening.get(), 4), 0) << "at a free port of all addresses";
+  const auto server = startStatusServer(
+      std::move(listening), {.json = [this] { return json_; }, .metrics = {}, .healthy = {}});
+  EXPECT_THAT(server->address(), StartsWith("0.0.0.0:"));
+  EXPECT_THAT(HttpClient::request(server->address(), "GET /status"), HasSubstr(json_));
+}
+
+TEST_F(StatusServerTest, ServesAtALocalSocketThatWasPassed) {
+  const support::TemporaryFolder folder;
+  const std::string path = (folder.path() / "status").string();
+  sockaddr_un here{};
+  here.sun_family = AF_UNIX;
+  std::ranges::copy(path, std::begin(here.sun_path));
+  hal::FileDescriptor listening(socket(AF_UNIX, SOCK_STREAM, 0));
+  ASSERT_EQ(bind(listening.get(), reinterpret_cast<const sockaddr*>(&here), sizeof here), 0);
+  ASSERT_EQ(listen(listening.get(), 4), 0);
+  const auto server = startStatusServer(
+      std::move(listening), {.json = [this] { return json_; }, .metrics = {}, .healthy = {}});
+  EXPECT_EQ(server->address(), "unix:" + path);
+  const hal::FileDescriptor client(socket(AF_UNIX, SOCK_STREAM, 0));
+  ASSERT_EQ(connect(client.get(), reinterpret_cast<const sockaddr*>(&here), sizeof here), 0);
+  const std::string request = "GET /status HTTP/1.1\r\nHost: here\r\n\r\n";
+  ASSERT_EQ(write(client.get(), request.data(), request.size()),
+            static_cast<ssize_t>(request.size()));
+  std::string answer(4096, '\0');
+  answer.resize(static_cast<std::size_t>(recv(client.get(), answer.data(), answer.size(), 0)));
+  EXPECT_THAT(answer, StartsWith("HTTP/1.1 200 "));
+}
+
+TEST_F(StatusServerTest, ServesAPageForPeopleWithAPicture) {
+  const auto server = start();
+  EXPECT_THAT(HttpClient::request(server->address(), "GET /"),
+              AllOf(StartsWith("HTTP/1.1 200 "), HasSubstr("text/html; charset=utf-8"),
+                    HasSubstr("\r\n\r\n<!DOCTYPE html>")));
+  EXPECT_THAT(HttpClient::request(server->address(), "GET /painting.jpg"),
+              StartsWith("HTTP/1.1 404 "));
+  picture_ = std::string("\xFF\xD8\0\xD9", 4);
+  EXPECT_THAT(HttpClient::request(server->address(), "GET /painting.jpg"),
+              AllOf(StartsWith("HTTP/1.1 200 "), HasSubstr("image/jpeg"),
+                    HasSubstr("\r\n\r\n" + picture_)));
+}
+
 TEST_F(StatusServerTest, AnswersHeadWithoutTheBody) {
   const auto server = start();
   EXPECT_THAT(HttpClient::request(server->address(), "HEAD /status"),
@@ -61,9 +145,61 @@ TEST_F(StatusServerTest, TellsItsHealth) {
   EXPECT_THAT(HttpClient::request(server->address(), "GET /healthz"), StartsWith("HTTP/1.1 503 "));
 }
 
+TEST_F(StatusServerTest, TakesCommandsFromThisMachineWithTheToken) {
+  const auto server = startCommanded();
+  EXPECT_THAT(post(*server, "Authorization: Bearer " + kToken, "next"),
+              StartsWith("HTTP/1.1 202 "));
+  EXPECT_THAT(taken_, ElementsAre("next"));
+  EXPECT_THAT(post(*server, "Authorization: Bearer " + kToken, "nxt"),
+              AllOf(StartsWith("HTTP/1.1 400 "), HasSubstr("not this one")));
+  EXPECT_THAT(post(*server, "Authorization: Bearer " + kToken, "busy"),
+              StartsWith("HTTP/1.1 503 "));
+  EXPECT_THAT(taken_, ElementsAre("next"));
+}
+
+TEST_F(StatusServerTest, RefusesCommandsWithoutTheTokenAndOfForeignPages) {
+  const auto server = startCommanded();
+  for (const std::string header :
+       {"X: y", "Authorization: Bearer", "Authorization: Bearer x", "Authorization: Basic abc",
+        "Authorization: bearer 0123456789abcdef"}) {
+    EXPECT_THAT(post(*server, header, "next"), StartsWith("HTTP/1.1 401 ")) << header;
+  }
+  const std::string right = "Authorization: Bearer " + kToken;
+  EXPECT_THAT(post(*server, right + "0", "next"), StartsWith("HTTP/1.1 401 "));
+  EXPECT_THAT(post(*server, right + "\r\nOrigin: http://127.0.0.1", "next"),
+              StartsWith("HTTP/1.1 403 "));
+  EXPECT_THAT(post(*server, right, std::string(300, 'n')), StartsWith("HTTP/1.1 413 "));
+  EXPECT_THAT(HttpClient::request(server->address(), "GET /procedure"),
+              AllOf(StartsWith("HTTP/1.1 405 "), HasSubstr("Allow: POST")));
+  EXPECT_THAT(taken_, testing::IsEmpty());
+}
+
+TEST_F(StatusServerTest, ABodyInPiecesIsOneCommandAndAnAbortedOneNone) {
+  const auto server = startCommanded();
+  {
+    HttpClient client(server->address());
+    client.send("POST /procedure HTTP/1.1\r\nHost: x\r\nAuthorization: Bearer " + kToken +
+                "\r\nContent-Length: 9\r\n\r\nval");
+    client.send("ue 1.5");
+    EXPECT_THAT(client.receiveAll(), StartsWith("HTTP/1.1 202 "));
+  }
+  {
+    HttpClient client(server->address());
+    client.send("POST /procedure HTTP/1.1\r\nHost: x\r\nAuthorization: Bearer " + kToken +
+                "\r\nContent-Length: 9\r\n\r\nnext");
+  }
+  EXPECT_THAT(HttpClient::request(server->address(), "GET /healthz"), HasSubstr("200 OK"));
+  EXPECT_THAT(taken_, ElementsAre("value 1.5"));
+}
+
+TEST_F(StatusServerTest, WithoutATokenThereAreNoCommands) {
+  const auto server = start();
+  EXPECT_THAT(post(*server, "Authorization: Bearer ", "next"), StartsWith("HTTP/1.1 404 "));
+}
+
 TEST_F(StatusServerTest, RefusesOtherPagesAndMethods) {
   const auto server = start();
-  for (const char* line : {"GET /", "GET /status/", "GET /../etc/passwd", "POST /x"}) {
+  for (const char* line : {"GET /x", "GET /status/", "GET /../etc/passwd", "POST /x"}) {
     EXPECT_THAT(HttpClient::request(server->address(), line), StartsWith("HTTP/1.1 404 ")) << line;
   }
   for (const char* line : {"POST /status", "PUT /metrics", "DELETE /healthz", "TRACE /status"}) {
@@ -75,7 +211,9 @@ TEST_F(StatusServerTest, RefusesOtherPagesAndMethods) {
 
 TEST_F(StatusServerTest, AnswersAPageThatThrows) {
   const auto server = startStatusServer(
-      "127.0.0.1:0", {.json = []() -> std::string { throw std::runtime_error("no memory"); },
+      "127.0.0.1:0", {.page = [] { return std::string(); },
+                      .picture = [] { return std::string(); },
+                      .json = []() -> std::string { throw std::runtime_error("no memory"); },
                       .metrics = [] { return std::string(); },
                       .healthy = [] { return true; }});
   EXPECT_THAT(HttpClient::request(server->address(), "GET /status"), StartsWith("HTTP/1.1 500 "));

@@ -48,11 +48,12 @@ TEST(OpenFileOutput, ChoosesByThePath) {
     ASSERT_TRUE(output) << path;
     EXPECT_EQ((*output)->identity().backend, backend) << path;
   }
-  for (const char* path : {"a.avi", "a.jpg", "a.mp4.txt", ""}) {
+  for (const char* path : {"a.avi", "a.gif", "a.mp4.txt", ""}) {
     const auto output = openFileOutput(path);
     ASSERT_FALSE(output) << path;
     EXPECT_EQ(output.error().kind, ErrorKind::kInvalidArgument);
-    EXPECT_THAT(output.error().message(), testing::HasSubstr(".mp4, .mkv, .y4m or .png"));
+    EXPECT_THAT(output.error().message(),
+                testing::HasSubstr(".mp4, .mkv, .y4m, .png, .jpg, .jpeg, .tif or .tiff"));
   }
 }
 

@@ -80,14 +80,26 @@ TEST_F(Sound, EndsWithTheLastImage) {
   expectClicks("short.mkv", {0.52, 1.30});
 }
 
-TEST_F(Sound, ThatTheFileCannotHoldIsLeftOutWithANotice) {
+TEST_F(Sound, ThatTheFileCannotHoldBecomesAac) {
   writeRecording("in.mkv", AV_CODEC_ID_FFV1, AV_CODEC_ID_PCM_S16LE);
-  paint("out.mp4", {.soundOf = path("in.mkv")}, 10);
-  EXPECT_FALSE(support::clicksIn(path("out.mp4")));
-  ASSERT_EQ(notices_.size(), 1U);
-  EXPECT_THAT(notices_.front(), HasSubstr("holds no sound coded as pcm_s16le, which is left out"));
+  paint("out.mp4", {.soundOf = path("in.mkv")}, 75);
+  expectClicks("out.mp4", {0.52, 1.30, 2.71});
+  paint("part.mp4", {.soundOf = path("in.mkv"), .soundFrom = 1210ms}, 44);
+  expectClicks("part.mp4", {1.30 - 1.24, 2.71 - 1.24});
+  paint("short.mp4", {.soundOf = path("in.mkv")}, 40);
+  expectClicks("short.mp4", {0.52, 1.30});
+  ASSERT_EQ(notices_.size(), 3U);
+  EXPECT_THAT(notices_.front(),
+              HasSubstr("holds no sound coded as pcm_s16le, which becomes AAC; an .mkv would"));
+}
+
+TEST_F(Sound, IsLeftOutOfY4mWithANotice) {
+  writeRecording("in.mkv", AV_CODEC_ID_FFV1, AV_CODEC_ID_PCM_S16LE);
   paint("out.y4m", {.soundOf = path("in.mkv")}, 10);
-  EXPECT_EQ(notices_.size(), 2U);
+  EXPECT_FALSE(support::clicksIn(path("out.y4m")));
+  ASSERT_EQ(notices_.size(), 1U);
+  EXPECT_THAT(notices_.front(),
+              HasSubstr("out.y4m: holds no sound: that of the recording is left"));
 }
 
 TEST_F(Sound, OfASilentRecordingChangesNoByte) {

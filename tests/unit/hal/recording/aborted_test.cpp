@@ -37,7 +37,7 @@ class Aborted : public testing::TestWithParam<std::string> {
     ASSERT_TRUE(played) << played.error().message();
     ASSERT_EQ(played->frames.size(), static_cast<std::size_t>(kFrames));
     for (std::size_t i = 0; i < played->frames.size(); ++i) {
-      sound_[played->times[i]] = hashOf(played->frames[i].image);
+      sound_[played->times[i]] = hashOf(played->frames[i].image.map().view());
     }
   }
 
@@ -46,7 +46,7 @@ class Aborted : public testing::TestWithParam<std::string> {
     for (std::size_t i = 0; i < played.frames.size(); ++i) {
       const auto sound = sound_.find(played.times[i]);
       ASSERT_NE(sound, sound_.end()) << "frame " << i << " at " << played.times[i].count();
-      EXPECT_EQ(hashOf(played.frames[i].image), sound->second) << "frame " << i;
+      EXPECT_EQ(hashOf(played.frames[i].image.map().view()), sound->second) << "frame " << i;
     }
   }
 

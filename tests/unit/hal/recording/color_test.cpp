@@ -87,7 +87,7 @@ TEST_P(MovieColors, ComeBackWithTheirEncoding) {
   ASSERT_EQ(played->frames.size(), kColors.size());
   EXPECT_EQ(played->format.frame.encoding, format.encoding);
   for (std::size_t i = 0; i < kColors.size(); ++i) {
-    const ImageView& view = played->frames[i].image;
+    const ImageView view = played->frames[i].image.map().view();
     const YCbCr value{double(view.planes[0].bytes[0]), double(view.planes[1].bytes[0]),
                       double(view.planes[2].bytes[0])};
     const Rgb rgb = decode(value, view.format.encoding);
@@ -119,7 +119,7 @@ TEST(H264Movie, RepeatsTheLastColumnAndRowOfOddSizes) {
   orThrow(output->finish());
   const Result<support::Played> played = support::play(path);
   ASSERT_TRUE(played) << played.error().message();
-  const ImageView& view = played->frames.at(0).image;
+  const ImageView view = played->frames.at(0).image.map().view();
   ASSERT_EQ(view.format.size, (FrameSize{2, 4}));
   for (int y = 0; y < 4; ++y) {
     for (const std::uint8_t luma : view.row(0, y)) {

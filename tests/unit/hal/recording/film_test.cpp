@@ -41,7 +41,7 @@ TEST(Film, HdrIsToneMapped) {
   const auto played = support::play(folder.path() / "hdr.mkv");
   ASSERT_TRUE(played) << played.error().message();
   ASSERT_EQ(played->format.frame.pixelFormat, PixelFormat::kRgb8);
-  EXPECT_NEAR(played->frames[0].image.row(0, 10)[30], 0.70 * 255, 3);
+  EXPECT_NEAR(played->frames[0].image.map().view().row(0, 10)[30], 0.70 * 255, 3);
 }
 
 }  // namespace

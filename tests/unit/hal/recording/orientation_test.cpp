@@ -101,9 +101,10 @@ TEST(MovieOrientation, TurnsFramesInAllEightWays) {
     EXPECT_TRUE(played->changes.empty());
     ASSERT_EQ(played->frames.size(), stored.frames.size());
     for (std::size_t i = 0; i < stored.frames.size(); ++i) {
-      const Image expected = support::uprightByExif(stored.frames[i].image, number);
+      const Image expected = support::uprightByExif(stored.frames[i].image.map().view(), number);
       EXPECT_EQ(played->format.frame, expected.format()) << number;
-      EXPECT_TRUE(support::equalPixels(played->frames[i].image, expected.view())) << number;
+      EXPECT_TRUE(support::equalPixels(played->frames[i].image.map().view(), expected.view()))
+          << number;
     }
     EXPECT_EQ(played->times, stored.times);
   }
@@ -132,8 +133,8 @@ TEST(MovieOrientation, PhoneMovieStandsUpright) {
   constexpr int kQuarterTurnAgainstTheClock = 8;
   for (std::size_t i = 0; i < stored.frames.size(); ++i) {
     const Image expected =
-        support::uprightByExif(stored.frames[i].image, kQuarterTurnAgainstTheClock);
-    EXPECT_TRUE(support::equalPixels(upright.frames[i].image, expected.view())) << i;
+        support::uprightByExif(stored.frames[i].image.map().view(), kQuarterTurnAgainstTheClock);
+    EXPECT_TRUE(support::equalPixels(upright.frames[i].image.map().view(), expected.view())) << i;
   }
 }
 

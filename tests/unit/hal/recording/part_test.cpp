@@ -14,7 +14,7 @@ constexpr int kMovieFrames = 50;  // at 25 a second, a key frame every second in
 
 /// Luma of the frame's number in a movie of support::writeAvMovie().
 int lumaOf(const CapturedFrame& frame) {
-  return frame.image.row(0, 5)[5];
+  return frame.image.map().view().row(0, 5)[5];
 }
 
 class Part : public testing::TestWithParam<const char*> {

@@ -11,6 +11,7 @@
 #include "hal/media/picture_file.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test_jpegs.h"
 
 namespace pleinair::hal {
 namespace {
@@ -47,6 +48,21 @@ TEST(RecordingPath, ReadsTheFolderInOrderAndOnlyItsPictures) {
   for (const CapturedFrame& frame : played->frames) widths.push_back(frame.image.format.size.width);
   EXPECT_THAT(widths, testing::ElementsAre(1, 2, 2, 10));
   EXPECT_EQ(played->changes.size(), 2u) << "each change of size is announced";
+}
+
+TEST(RecordingPath, PlaysMotionJpegWhateverTheCaseOfItsEnding) {
+  const support::TemporaryFolder folder;
+  const std::vector<std::uint8_t> jpeg = support::testJpeg("j420.jpg");
+  for (const char* name : {"a.mjpg", "b.MJPG", "c.MJpeg"}) {
+    std::ofstream file(folder.path() / name, std::ios::binary);
+    for (int i = 0; i < 3; ++i) {
+      file.write(reinterpret_cast<const char*>(jpeg.data()), std::ssize(jpeg));
+    }
+    file.close();
+    const Result<support::Played> played = support::play(folder.path() / name);
+    ASSERT_TRUE(played) << name << ": " << played.error().message();
+    EXPECT_EQ(played->frames.size(), 3u) << name;
+  }
 }
 
 TEST(RecordingPath, ReadsAPatternFromItsFirstNumberToTheGap) {

@@ -51,6 +51,16 @@ TEST_F(CameraSelectorTest, ByIdNodeAndSerial) {
   EXPECT_EQ(opened("serial:XYZ"), "usb:x");
 }
 
+TEST_F(CameraSelectorTest, AutoAsksABackEndOnlyWhenThoseBeforeItHaveFailed) {
+  const auto first = csi_->add("sensor", {sound_, busy_}, "/dev/video0");
+  usb_->add("webcam", {sound_}, "/dev/video1");
+  CameraSelector chosen = selector("auto");
+  EXPECT_EQ(told(chosen.open({})), "csi:sensor");
+  EXPECT_EQ(usb_->lists, 0) << "asking may take a second";
+  EXPECT_EQ(told(chosen.open({})), "usb:webcam");
+  EXPECT_EQ(usb_->lists, 1);
+}
+
 TEST_F(CameraSelectorTest, FollowsACameraToTheNodeThatItGotAfterAReset) {
   const auto device = usb_->add("046d:0825", {sound_}, "/dev/video0");
   const auto other = usb_->add("046d:9999", {sound_}, "/dev/video2");

@@ -201,6 +201,20 @@ TEST(CameraSupervisor, GivesUpACameraThatNeverGivesAFirstFrame) {
   EXPECT_EQ(firstOf(all, "lost").reason, "has given no frame for 5.0 s since its start");
 }
 
+TEST(CameraSupervisor, ACameraThatWaitsForATriggerIsNotSilent) {
+  Supervised supervised;
+  ScriptedSession triggered{.steps = scriptOf(ScriptedSilence{seconds(60)}, scriptedFrames(1),
+                                              ScriptedSilence{seconds(60)}, unplugged())};
+  triggered.format.framePeriod.reset();
+  triggered.format.isTriggered = true;
+  supervised.add({triggered});
+  EXPECT_THAT(story(supervised.run(seconds(100))),
+              ElementsAre("opening", "format", "streaming", "frames×1"));
+  EXPECT_EQ(supervised.supervisor().status().counts.stalls, 0U);
+  EXPECT_THAT(story(supervised.run(seconds(21))),
+              ElementsAre("lost", "backing off", "opening", "lost", "backing off"));
+}
+
 TEST(CameraSupervisor, CountsCorruptAndMisTimedFramesAndLetsThemNotOut) {
   Supervised supervised;
   supervised.add(

@@ -63,6 +63,21 @@ TEST(SessionFrames, OfRecordingsTimesMayRunAheadOfTheClock) {
   EXPECT_TRUE(std::holds_alternative<SupervisedFrame>(frames.take(frameAt(later), kStart, false)));
 }
 
+TEST(SessionFrames, CountsPacketsAndNotAsFrames) {
+  SessionFrames frames;
+  CapturedFrame broken = frameAt(kStart);
+  broken.health = FrameHealth::kIncomplete;
+  broken.linkBefore = {.missingPackets = 3, .resentPackets = 5};
+  frames.take(std::move(broken), kStart, false);
+  EXPECT_EQ(frames.counts().link, (LinkCounts{.missingPackets = 3, .resentPackets = 5}));
+  CapturedFrame whole = frameAt(kStart + milliseconds(1));
+  whole.linkBefore = {.resentPackets = 2, .ignoredPackets = 1};
+  frames.take(std::move(whole), kStart + milliseconds(1), false);
+  EXPECT_EQ(frames.counts().link,
+            (LinkCounts{.missingPackets = 3, .resentPackets = 7, .ignoredPackets = 1}));
+  EXPECT_EQ(frames.counts().made(), 2U);
+}
+
 TEST(SessionFrames, MoreStarvedThanDroppedIsFixed) {
   SessionFrames frames;
   const auto taken = frames.take(frameAt(kStart, 2, 9), kStart, false);

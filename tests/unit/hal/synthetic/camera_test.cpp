@@ -97,12 +97,13 @@ TEST(SyntheticCamera, GivesItsBuffersOutAgain) {
   ASSERT_TRUE(camera.start({}));
   keepWorkbenchOf(smallOptions());
   NextFrame held = camera.next(kNoDeadline);
-  const std::uint8_t* heldPixels = std::get<CapturedFrame>(held).image.planes[0].bytes.data();
+  const std::uint8_t* heldPixels =
+      std::get<CapturedFrame>(held).image.map().view().planes[0].bytes.data();
   const NextFrame other = camera.next(kNoDeadline);
-  EXPECT_NE(std::get<CapturedFrame>(other).image.planes[0].bytes.data(), heldPixels);
+  EXPECT_NE(std::get<CapturedFrame>(other).image.map().view().planes[0].bytes.data(), heldPixels);
   held = CameraTimeout{};
   const NextFrame reused = camera.next(kNoDeadline);
-  EXPECT_EQ(std::get<CapturedFrame>(reused).image.planes[0].bytes.data(), heldPixels);
+  EXPECT_EQ(std::get<CapturedFrame>(reused).image.map().view().planes[0].bytes.data(), heldPixels);
 }
 
 TEST(SyntheticCamera, StaysExactlyStillInTheStillShot) {

@@ -70,7 +70,7 @@ class FakeCamera : public testing::Test {
       const int rows =
           planeRows(frame.image.format.pixelFormat, plane, frame.image.format.size.height);
       for (int y = 0; y < rows; ++y) {
-        ASSERT_THAT(frame.image.row(plane, y),
+        ASSERT_THAT(frame.image.map().view().row(plane, y),
                     testing::ElementsAreArray(expected.view().row(plane, y)))
             << "plane " << plane << " row " << y << " of frame " << number;
       }

@@ -35,7 +35,7 @@ TEST_P(V4l2Layouts, AreReadWithTheDriversStride) {
     for (int i = 0; i < 2; ++i) {
       const CapturedFrame frame = frameOrFail();
       EXPECT_EQ(frame.health, FrameHealth::kValid);
-      EXPECT_EQ(frame.image.planes[0].strideBytes,
+      EXPECT_EQ(frame.image.map().view().planes[0].strideBytes,
                 rowBytes(GetParam().pixelFormat, 0, 64) + padding);
       expectPicture(frame, i);
     }
@@ -130,8 +130,10 @@ TEST_F(V4l2Format, WithoutARateHasNoPeriod) {
 
 TEST_F(V4l2Format, SaysItsColorEncoding) {
   plug({.colorspace = V4L2_COLORSPACE_REC709, .quantization = V4L2_QUANTIZATION_FULL_RANGE});
-  EXPECT_EQ(startOrFail().frame.encoding,
-            (ColorEncoding{.matrix = ColorMatrix::kBt709, .range = ColorRange::kFull}));
+  EXPECT_EQ(startOrFail().frame.encoding, (ColorEncoding{.matrix = ColorMatrix::kBt709,
+                                                         .range = ColorRange::kFull,
+                                                         .primaries = ColorPrimaries::kBt709,
+                                                         .transfer = ColorTransfer::kBt709}));
 }
 
 TEST(V4l2ColorEncoding, FollowsTheKernelsDefaults) {

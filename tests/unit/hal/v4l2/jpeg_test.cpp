@@ -72,7 +72,8 @@ TEST_F(V4l2Jpeg, IsDecoded) {
   EXPECT_EQ(frame.dmaBufs[0].fd, -1);
   const auto expected = libav::decodeMotionJpeg(testJpeg("j420.jpg"), "test");
   for (int y = 0; y < format.frame.size.height; ++y) {
-    EXPECT_THAT(frame.image.row(0, y), testing::ElementsAreArray(expected->view.row(0, y)));
+    EXPECT_THAT(frame.image.map().view().row(0, y),
+                testing::ElementsAreArray(expected->view.row(0, y)));
   }
 }
 
@@ -90,7 +91,8 @@ TEST_F(V4l2Jpeg, ThatIsBrokenIsACorruptFrameWithTheLastSoundPicture) {
     const CapturedFrame broken = frameOrFail();
     EXPECT_EQ(broken.health, FrameHealth::kCorrupt) << i;
     EXPECT_EQ(broken.sequence, static_cast<unsigned>(i));
-    EXPECT_EQ(broken.image.planes[0].bytes.data(), sound.image.planes[0].bytes.data());
+    EXPECT_EQ(broken.image.map().view().planes[0].bytes.data(),
+              sound.image.map().view().planes[0].bytes.data());
   }
   EXPECT_EQ(frameOrFail().health, FrameHealth::kValid) << "as stored, not turned";
 }
@@ -103,8 +105,8 @@ TEST_F(V4l2Jpeg, OfAnotherSizeThanAgreedIsCorrupt) {
   EXPECT_EQ(frame.health, FrameHealth::kCorrupt);
   EXPECT_EQ(frame.image.format, format.frame);
   EXPECT_TRUE(frame.image.isComplete());
-  EXPECT_EQ(meanOf(frame.image, 0), 0) << "black: there is no valid image yet";
-  EXPECT_EQ(meanOf(frame.image, 1), 128);
+  EXPECT_EQ(meanOf(frame.image.map().view(), 0), 0) << "black: there is no valid image yet";
+  EXPECT_EQ(meanOf(frame.image.map().view(), 1), 128);
 }
 
 TEST_F(V4l2Jpeg, HoldsNoBufferOfTheDriver) {

@@ -16,7 +16,7 @@ TEST_F(V4l2Leases, AreTheDriversMemoryWithItsDmaBuf) {
   startOrFail();
   const CapturedFrame frame = frameOrFail();
   expectPicture(frame, 0);
-  EXPECT_EQ(frame.image.planes[0].strideBytes, 96u);
+  EXPECT_EQ(frame.image.map().view().planes[0].strideBytes, 96u);
   EXPECT_GE(frame.dmaBufs[0].fd, 0);
   EXPECT_EQ(frame.dmaBufs[1].fd, frame.dmaBufs[0].fd);
   EXPECT_EQ(frame.dmaBufs[0].offsetBytes, 0u);
@@ -127,7 +127,7 @@ TEST_F(V4l2Leases, AreDroppedOnAnotherThreadWhileTheCameraStreams) {
         const std::scoped_lock lock(mutex);
         taken.swap(handed);
       }
-      for (const CapturedFrame& frame : taken) sum += frame.image.row(0, 0)[0];
+      for (const CapturedFrame& frame : taken) sum += frame.image.map().view().row(0, 0)[0];
     }
   });
   for (int i = 0; i < 500; ++i) {

@@ -38,6 +38,14 @@ TEST_F(V4l2Listing, IsEmptyWithoutDevices) {
   EXPECT_TRUE(listed().empty());
 }
 
+TEST_F(V4l2Listing, LeavesEndsOfPipelinesToLibcamera) {
+  plugAt("video0", {.caps = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING | V4L2_CAP_IO_MC});
+  plugAt("video1", {.card = "Webcam"});
+  const auto cameras = listed();
+  ASSERT_EQ(cameras.size(), 1u);
+  EXPECT_EQ(cameras[0].node, "/dev/video1");
+}
+
 TEST_F(V4l2Listing, DescribesACamera) {
   plugAt("video0", {.card = "HD Webcam"});
   link("/dev/v4l/by-id", "usb-Acme_HD_Webcam_0042-video-index0", "/dev/video0");

@@ -293,6 +293,23 @@ TEST_F(DisplayTest, ABusyCardDropsNothing) {
       20);
 }
 
+TEST_F(DisplayTest, ACardThatStaysBusyIsLostWithinASecond) {
+  FakeCardSpec& card = plug();
+  ASSERT_TRUE(start().has_value());
+  ASSERT_TRUE(showAndWait().has_value());
+  card.busyFlips = 1'000'000;
+  const TimePoint began = clock_.now();
+  ASSERT_TRUE(show(began + period_).has_value());
+  const Result<void> ran = runTo(began + std::chrono::seconds(3));
+  ASSERT_FALSE(ran.has_value());
+  EXPECT_EQ(ran.error().kind, ErrorKind::kDeviceLost);
+  EXPECT_LE(clock_.now() - began, std::chrono::milliseconds(1100));
+  card.busyFlips = 0;
+  output_.reset();
+  ASSERT_TRUE(start().has_value());
+  EXPECT_TRUE(showAndWait().has_value());
+}
+
 TEST_F(DisplayTest, AFlipWithoutMemoryIsSkipped) {
   FakeCardSpec& card = plug();
   ASSERT_TRUE(start().has_value());
@@ -335,6 +352,22 @@ TEST_F(DisplayTest, AHundredUnplugsLeaveNothingBehind) {
     ASSERT_EQ(cards_.buffers, 0);
     ASSERT_EQ(cards_.openCards, 0);
   }
+}
+
+TEST_F(DisplayTest, TellsItsTimingBeforeItIsOpened) {
+  plug({.connectors = {{.modes = {{.size = {64, 48}, .hertz = 50.0}}}}});
+  const Result<DisplayTiming> timing = displayTiming("display", cards_);
+  ASSERT_TRUE(timing.has_value());
+  EXPECT_EQ(timing->size, (FrameSize{64, 48}));
+  EXPECT_NEAR(toMilliseconds(timing->period), 20.0, 0.1);
+  EXPECT_TRUE(timing->hasVblank);
+  EXPECT_EQ(cards_.modesets, 0);
+  ASSERT_TRUE(start().has_value()) << "it was released";
+}
+
+TEST_F(DisplayTest, TellsBeforehandThatItCountsNoRefreshes) {
+  plug({.hasVblank = false});
+  EXPECT_FALSE(displayTiming("display", cards_)->hasVblank);
 }
 
 TEST(DisplayListing, IsReadFromTheKernelsFiles) {

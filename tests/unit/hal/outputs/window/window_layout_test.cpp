@@ -25,6 +25,14 @@ TEST(LetterBox, LeavesBarsOnTwoSidesOfOthers) {
   EXPECT_EQ(letterBox({1920, 1080}, {1024, 768}), (Area{0, 96, {1024, 576}}));
 }
 
+TEST(LetterBox, OfATurnedPictureFitsTheWindowAfterTheTurn) {
+  EXPECT_EQ(turnedLetterBox({640, 480}, {1280, 480}, 0), letterBox({640, 480}, {1280, 480}));
+  EXPECT_EQ(turnedLetterBox({640, 480}, {1280, 480}, 2), letterBox({640, 480}, {1280, 480}));
+  // Turned, it is seen as 360x480 at 460,0: the same centre, sides exchanged.
+  EXPECT_EQ(turnedLetterBox({640, 480}, {1280, 480}, 1), (Area{400, 60, {480, 360}}));
+  EXPECT_EQ(turnedLetterBox({640, 480}, {480, 640}, 3), (Area{-80, 80, {640, 480}}));
+}
+
 TEST(LetterBox, KeepsShapeAndCentreForEverySize) {
   for (const FrameSize picture : {FrameSize{1, 1}, {640, 480}, {33, 17}, {8192, 1}, {1, 8192}}) {
     for (int width = 1; width < 900; width += 37) {

@@ -81,8 +81,8 @@ class WindowTest : public testing::Test {
  protected:
   WindowTest() { support::setVariable("SDL_VIDEODRIVER", "dummy"); }
 
-  static std::unique_ptr<Window> open(FrameSize size) {
-    std::unique_ptr<Window> window = orThrow(openWindow());
+  static std::unique_ptr<Window> open(FrameSize size, WindowSettings settings = {}) {
+    std::unique_ptr<Window> window = orThrow(openWindow(std::move(settings)));
     const OutputFormat format = orThrow(window->start({.size = size}));
     EXPECT_EQ(format.frame, (FrameFormat{.pixelFormat = PixelFormat::kRgba8, .size = size}));
     window->takeEvents();  // discards the events of opening
@@ -216,6 +216,86 @@ TEST_F(WindowTest, FadesItsCaption) {
   const int half = darkestAt(0.5);
   EXPECT_NEAR(full, 255 * 0.4, 3);
   EXPECT_NEAR(half, 255 * 0.7, 3);
+}
+
+TEST_F(WindowTest, TurnsAndMirrorsPictures) {
+  const FrameSize size{320, 240};
+  Image picture = colours(size);
+  struct Case {
+    int quarterTurns;
+    bool isMirrored;
+  };
+  for (const Case& each : {Case{1, false}, {2, false}, {3, false}, {0, true}, {1, true}}) {
+    const auto window =
+        open(size, {.quarterTurns = each.quarterTurns, .isMirrored = each.isMirrored});
+    orThrow(window->write(picture.view(), {}));
+    Image shown = orThrow(window->shown());
+    const bool isTurned = each.quarterTurns % 2 == 1;
+    ASSERT_EQ(shown.size(), isTurned ? (FrameSize{240, 320}) : size) << each.quarterTurns;
+    for (const auto& [x, y] : {std::pair{10, 20}, {300, 33}, {7, 221}}) {
+      const int across = each.isMirrored ? size.width - 1 - x : x;
+      const int right = size.width - 1 - across;
+      const int low = size.height - 1 - y;
+      const auto [toX, toY] = each.quarterTurns == 0   ? std::pair{across, y}
+                              : each.quarterTurns == 1 ? std::pair{low, across}
+                              : each.quarterTurns == 2 ? std::pair{right, low}
+                                                       : std::pair{y, right};
+      EXPECT_EQ(at(shown, toX, toY), at(picture, x, y))
+          << each.quarterTurns << (each.isMirrored ? " mirrored" : "");
+    }
+  }
+}
+
+TEST_F(WindowTest, FillsTheScreenFromTheStart) {
+  const auto window = open({320, 240}, {.isFullScreen = true});
+  Image shown = orThrow(window->shown());
+  SDL_DisplayMode mode{};
+  SDL_GetDesktopDisplayMode(0, &mode);
+  EXPECT_EQ(shown.size(), (FrameSize{mode.w, mode.h}));
+  EXPECT_EQ(SDL_ShowCursor(SDL_QUERY), SDL_DISABLE);
+}
+
+TEST_F(WindowTest, HidesTheCursorWhereThatIsAsked) {
+  {
+    const auto window = open({320, 240}, {.hidesCursor = true});
+    EXPECT_EQ(SDL_ShowCursor(SDL_QUERY), SDL_DISABLE);
+    window->setFullScreen(false);
+    EXPECT_EQ(SDL_ShowCursor(SDL_QUERY), SDL_DISABLE);
+  }
+  SDL_ShowCursor(SDL_ENABLE);
+}
+
+TEST_F(WindowTest, TakesNoKeysWhereTheyAreLocked) {
+  const auto window = open({320, 240}, {.takesKeys = false});
+  pushKey(newestSdlWindow(), SDLK_q);
+  pushClose(newestSdlWindow());
+  EXPECT_THAT(window->takeEvents(), IsEmpty());
+  const Image before = orThrow(window->shown());
+  window->setCaption("h: help", 1.0);
+  const Image after = orThrow(window->shown());
+  EXPECT_TRUE(std::ranges::equal(before.view().row(0, 235), after.view().row(0, 235)));
+}
+
+TEST_F(WindowTest, NamesTheDisplaysWhereTheWantedOneIsNotThere) {
+  const auto window = orThrow(openWindow({.display = "9"}));
+  const auto started = window->start({.size = {64, 48}});
+  ASSERT_FALSE(started);
+  EXPECT_EQ(started.error().kind, ErrorKind::kNotFound);
+  EXPECT_THAT(started.error().message(),
+              HasSubstr("there is no display 9; give auto, or one of 1 ("));
+  EXPECT_TRUE(orThrow(openWindow({.display = "1"}))->start({.size = {64, 48}}));
+}
+
+TEST_F(WindowTest, TakesAStreamOfAnotherSize) {
+  const auto window = open({320, 240});
+  orThrow(window->write(colours({320, 240}).view(), {}));
+  const OutputFormat format = orThrow(window->reconfigure({.size = {400, 260}}));
+  EXPECT_EQ(format.frame.size, (FrameSize{400, 260}));
+  Image picture = colours({400, 260});
+  orThrow(window->write(picture.view(), {}));
+  Image shown = orThrow(window->shown());
+  ASSERT_EQ(shown.size(), (FrameSize{400, 260}));
+  EXPECT_EQ(at(shown, 399, 259), at(picture, 399, 259));
 }
 
 TEST_F(WindowTest, GivesKeysInTheirOrder) {

@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "config/toml_reader.h"
+#include "config/toml_text.h"
+#include "firmware_app/cli/standard_streams.h"
+#include "firmware_app/commands/procedure.h"
+#include "hal/error.h"
+#include "hal/pending_file.h"
+#include "pipeline/procedure/procedure_file.h"
+#include "pipeline/procedure/skeleton.h"
+#include "pipeline/scene/description/scene_values.h"
+
+namespace pleinair::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+using hal::orThrow;
+
+hal::Failure refusedProcedure(std::string subject, std::string problem, std::string remedy) {
+  return hal::Failure({.kind = hal::ErrorKind::kInvalidArgument,
+                       .subject = std::move(subject),
+                       .problem = std::move(problem),
+                       .remedy = std::move(remedy)});
+}
+
+bool isInside(const fs::path& file, const fs::path& folder) {
+  const fs::path relative = fs::relative(file, folder);
+  return !relative.empty() && *relative.begin() != "..";
+}
+
+/// How [model] names the model, and the file to copy, if any.
+struct ModelFile {
+  std::string source;
+  fs::path copied;
+};
+
+ModelFile modelFileOf(const ProcedureNewOptions& options) {
+  if (options.model.starts_with("builtin:")) return {.source = options.model};
+  const fs::path file(options.model);
+  if (isInside(file, options.folder)) {
+    return {.source = fs::relative(file, options.folder).string()};
+  }
+  if (file.extension() == ".glb") {
+    return {.source = file.filename().string(), .copied = file};
+  }
+  throw refusedProcedure(options.model, "may have its data in other files, so it is not copied",
+                         "a .glb file, or the model already in " + options.folder.string());
+}
+
+/// Throws where something would be overwritten.
+void refuseExisting(const ProcedureNewOptions& options, const ModelFile& model,
+                    const std::vector<std::string>& languages) {
+  std::vector<fs::path> written{options.folder / procedure::kProcedureFile};
+  for (const std::string& each : languages) written.push_back(options.folder / (each + ".md"));
+  if (!model.copied.empty()) written.push_back(options.folder / model.source);
+  for (const fs::path& each : written) {
+    if (fs::exists(each)) throw refusedProcedure(each.string(), "exists already", "another FOLDER");
+  }
+}
+
+scene::ModelSource sourceOf(const ProcedureNewOptions& options) {
+  // As the procedure's [model] will be read, so that the same names and errors hold.
+  const auto text = config::tomlString(options.model);
+  if (!text) throw refusedProcedure("--model", "is not UTF-8", "a file name in UTF-8");
+  const auto document = config::TomlDocument::parseText("source = " + *text, "--model");
+  return scene::readSource(document.root(), {});
+}
+
+void writeFile(const fs::path& path, const std::string& text) {
+  hal::PendingFile file = orThrow(hal::PendingFile::create(path));
+  orThrow(file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
+  orThrow(file.publish());
+}
+
+}  // namespace
+
+int newProcedure(const ProcedureNewOptions& options) {
+  std::vector<std::string> languages = options.languages;
+  if (languages.empty()) languages.emplace_back("en");
+  for (const std::string& each : languages) {
+    if (procedure::isLanguageTag(each)) continue;
+    throw refusedProcedure("--language", fmt::format("found \"{}\"", each),
+                           "a tag such as en or pt-BR");
+  }
+  const ModelFile file = modelFileOf(options);
+  refuseExisting(options, file, languages);
+  const scene::Model model = orThrow(scene::modelOf(sourceOf(options)));
+  if (model.parts.empty()) {
+    throw refusedProcedure(options.model, "has no node that shows anything", "a model with meshes");
+  }
+  std::string name = fs::absolute(options.folder).lexically_normal().filename().string();
+  if (name.empty() || !config::tomlString(name)) name = "procedure";
+  const procedure::Skeleton skeleton = procedure::skeletonOf(model, name, file.source, languages);
+  std::error_code failure;
+  fs::create_directories(options.folder, failure);
+  if (failure) {
+    throw hal::Failure(hal::errnoError(options.folder.string(), "cannot create", failure.value()));
+  }
+  if (!file.copied.empty()) {
+    fs::copy_file(file.copied, options.folder / file.source, failure);
+    if (failure) {
+      throw hal::Failure(
+          hal::errnoError((options.folder / file.source).string(), "cannot copy", failure.value()));
+    }
+  }
+  for (const auto& [language, text] : skeleton.texts) {
+    writeFile(options.folder / (language + ".md"), text);
+  }
+  writeFile(options.folder / procedure::kProcedureFile, skeleton.toml);
+  writeText(stdout, fmt::format("wrote {} steps: {}\n", skeleton.steps,
+                                (options.folder / procedure::kProcedureFile).string()));
+  if (!skeleton.leftOut.empty()) {
+    spdlog::warn("{} nodes have no step, from {} on: a procedure has at most {} steps",
+                 skeleton.leftOut.size(), skeleton.leftOut.front(), procedure::kMaxSteps);
+  }
+  return 0;
+}
+
+}  // namespace pleinair::app

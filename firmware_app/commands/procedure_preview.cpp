@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "firmware_app/cli/exit_status.h"
+#include "firmware_app/cli/interrupt.h"
+#include "firmware_app/cli/path_collisions.h"
+#include "firmware_app/cli/progress.h"
+#include "firmware_app/cli/standard_streams.h"
+#include "firmware_app/commands/procedure.h"
+#include "firmware_app/procedure/step_pictures.h"
+#include "firmware_app/procedure/step_tile.h"
+#include "hal/media/picture_file.h"
+#include "hal/pending_file.h"
+#include "pipeline/present/labelled_sheet.h"
+#include "pipeline/procedure/procedure_file.h"
+
+namespace pleinair::app {
+namespace {
+
+using hal::orThrow;
+using procedure::Procedure;
+
+constexpr hal::FrameSize kStepPicture{480, 360};
+constexpr int kStepColumns = 4;
+constexpr int kMaxStepColumns = 16;  // a sheet's side is limited (hal::kMaxSidePixels)
+constexpr int kStepSheetGap = 40;    // of a tile: gaps and its label, and a little more
+
+std::string stepLanguage(const ProcedurePreviewOptions& options, const Procedure& procedure) {
+  if (options.language.empty()) return procedure.languages.front();
+  if (std::ranges::find(procedure.languages, options.language) != procedure.languages.end()) {
+    return options.language;
+  }
+  throw hal::Failure({.kind = hal::ErrorKind::kInvalidArgument,
+                      .subject = "--language",
+                      .problem = fmt::format("found \"{}\"", options.language),
+                      .remedy = fmt::format("one of {}", fmt::join(procedure.languages, ", "))});
+}
+
+/// As many columns as let the sheet be no higher than an image may be.
+int stepColumns(std::size_t steps, int tileHeight) {
+  const int rows = std::max(1, hal::kMaxSidePixels / (tileHeight + kStepSheetGap));
+  const int needed = (static_cast<int>(steps) + rows - 1) / rows;
+  if (needed > kMaxStepColumns) {
+    throw hal::Failure({.kind = hal::ErrorKind::kUnsupported,
+                        .subject = "preview",
+                        .problem = fmt::format("{} steps do not fit on one sheet", steps),
+                        .remedy = fmt::format("at most {} steps", rows * kMaxStepColumns)});
+  }
+  return std::max(kStepColumns, needed);
+}
+
+}  // namespace
+
+int previewProcedure(const ProcedurePreviewOptions& options) {
+  const Interrupt interrupt;
+  const Procedure procedure = procedure::loadProcedure(options.folder);
+  const std::string language = stepLanguage(options, procedure);
+  std::vector<NamedPath> read;
+  for (const std::string& file : procedure.files) {
+    read.push_back({"a file of the procedure", options.folder / file});
+  }
+  refuseCollisions(read, {{"--output", options.output}});
+  int textRows = 0;
+  for (std::size_t i = 0; i < procedure.steps.size(); ++i) {
+    textRows = std::max(textRows, stepTextRows(procedure, i, language, kStepPicture.width));
+  }
+  const int columns = stepColumns(procedure.steps.size(), kStepPicture.height + textRows);
+  hal::PendingFile file = orThrow(hal::PendingFile::create(options.output));
+  StepPictures pictures(procedure, kStepPicture);
+  hal::SteadyClock clock;
+  Progress progress("drawing", procedure.steps.size(), clock);
+  std::vector<present::LabelledImage> tiles;
+  std::set<std::size_t> off;  // in the order of the file
+  for (std::size_t i = 0; i < procedure.steps.size(); ++i) {
+    if (const int signal = Interrupt::received(); signal != 0) {
+      printError(fmt::format("interrupted by {}; nothing was written", signalName(signal)));
+      return kSignalExitBase + signal;
+    }
+    const procedure::Step& step = procedure.steps[i];
+    for (const std::size_t part : step.fits) off.erase(part);
+    const hal::Image picture = pictures.draw(i, off);
+    off.insert(step.removes.begin(), step.removes.end());
+    tiles.push_back(
+        {.image = stepTile(procedure, i, language, picture, textRows), .label = step.id});
+    progress.advance();
+  }
+  const hal::Image sheet = present::labelledSheet(tiles, columns);
+  orThrow(file.write(orThrow(hal::encodePng(sheet.view()))));
+  orThrow(file.publish());
+  writeText(stdout, fmt::format("drew {} steps: {}\n", tiles.size(), options.output.string()));
+  return 0;
+}
+
+}  // namespace pleinair::app

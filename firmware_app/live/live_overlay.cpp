@@ -1,0 +1,59 @@
+#include "firmware_app/live/live_overlay.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace pleinair::app {
+namespace {
+
+constexpr hal::Duration kNoticeFor = std::chrono::seconds(5);
+
+/// Whether looks, ghosts and inset are the same.
+bool isSameStep(const StepShown& a, const StepShown& b) {
+  return a.procedure == b.procedure && a.step == b.step && a.partsOff == b.partsOff;
+}
+
+bool isSame(const StepShown& a, const StepShown& b) {
+  return isSameStep(a, b) && a.request == b.request && a.notice == b.notice && a.isDone == b.isDone;
+}
+
+/// An edited procedure may have another model than the one that is painted.
+bool hasSameParts(const scene::Model& a, const scene::Model& b) {
+  return std::ranges::equal(a.parts, b.parts, {}, &scene::ModelPart::name, &scene::ModelPart::name);
+}
+
+}  // namespace
+
+LiveOverlay::LiveOverlay(const scene::Model* machine, std::filesystem::path folder,
+                         hal::FrameSize output, bool showsInset)
+    : machine_(machine), folder_(std::move(folder)), output_(output), showsInset_(showsInset) {}
+
+void LiveOverlay::notify(const std::string& text, hal::TimePoint now) {
+  notice_ = text;
+  noticeEnds_ = now + kNoticeFor;
+}
+
+std::shared_ptr<const overlay::OverlayContent> LiveOverlay::update(StepShown shown,
+                                                                   hal::TimePoint now) {
+  if (now >= noticeEnds_) notice_.clear();
+  shown.notice = notice_;
+  if (last_ && isSame(*last_, shown)) return nullptr;
+  const bool keepsInset = last_ && content_ && isSameStep(*last_, shown);
+  const scene::Model& parts = *shown.procedure->model;
+  overlay::OverlayContent content =
+      stepContent(shown, parts, folder_, output_, keepsInset ? &content_->inset : nullptr);
+  content.showsInset = showsInset_;
+  if (machine_ != nullptr && !hasSameParts(*machine_, parts)) {
+    content.looks.clear();
+    content.ghosts.clear();
+    content.arrows.clear();
+    content.labels.clear();
+    content.showsInset = true;
+  }
+  last_ = std::move(shown);
+  content_ = std::make_shared<const overlay::OverlayContent>(std::move(content));
+  return content_;
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "firmware_app/overlay/step_content.h"
+#include "hal/clock.h"
+#include "hal/pixel_format.h"
+#include "pipeline/overlay/overlay_content.h"
+#include "pipeline/scene/models/model.h"
+
+namespace pleinair::app {
+
+/// Makes the overlay of a procedure's current step when it changes. Main thread.
+class LiveOverlay {
+ public:
+  /// `machine`: the scene's model, which outlives this; null: there is none. `output`: size of the
+  /// pictures.
+  LiveOverlay(const scene::Model* machine, std::filesystem::path folder, hal::FrameSize output,
+              bool showsInset);
+
+  /// Shows a text for some seconds: a check that failed, a full disk.
+  void notify(const std::string& text, hal::TimePoint now);
+  /// The overlay, if it is another one than that of the last call; else null. A new step takes some
+  /// 0.1 s, a new text a few ms.
+  std::shared_ptr<const overlay::OverlayContent> update(StepShown shown, hal::TimePoint now);
+
+ private:
+  const scene::Model* machine_;
+  std::filesystem::path folder_;
+  hal::FrameSize output_;
+  bool showsInset_;
+  std::optional<StepShown> last_;
+  std::shared_ptr<const overlay::OverlayContent> content_;
+  std::string notice_;
+  hal::TimePoint noticeEnds_;
+};
+
+}  // namespace pleinair::app

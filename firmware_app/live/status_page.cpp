@@ -1,0 +1,123 @@
+#include "firmware_app/live/status_page.h"
+
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "hal/clock.h"
+
+namespace pleinair::app {
+namespace {
+
+/// Names of devices and files may hold any characters.
+std::string escaped(std::string_view text) {
+  std::string html;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        html += "&amp;";
+        break;
+      case '<':
+        html += "&lt;";
+        break;
+      case '>':
+        html += "&gt;";
+        break;
+      case '"':
+        html += "&quot;";
+        break;
+      default:
+        html += c;
+    }
+  }
+  return html;
+}
+
+std::string row(std::string_view name, std::string_view value) {
+  return fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", escaped(name), escaped(value));
+}
+
+std::string cameraText(const runtime::CaptureStage::Status& camera) {
+  std::string text = camera.camera ? fmt::format("{} {}", camera.camera->backend, camera.camera->id)
+                                   : std::string("none yet");
+  if (camera.format) {
+    const hal::FrameSize size = camera.format->frame.size;
+    text +=
+        fmt::format(", {} × {}, {:.1f} frames a second", size.width, size.height, camera.perSecond);
+  }
+  if (!camera.reason.empty()) text += fmt::format(" ({})", camera.reason);
+  return text;
+}
+
+std::string outputText(const runtime::OutputStage::Status& output) {
+  std::string text =
+      fmt::format("{} × {}, {:.1f} frames a second, {} shown", output.format.size.width,
+                  output.format.size.height, output.perSecond, output.presented);
+  if (output.isFailed && output.failure) text += "; " + output.failure->message();
+  return text;
+}
+
+std::string uptimeText(hal::Duration uptime) {
+  const auto minutes = std::chrono::duration_cast<std::chrono::minutes>(uptime).count();
+  return fmt::format("{} days, {}:{:02} h", minutes / 1440, minutes / 60 % 24, minutes % 60);
+}
+
+std::string rowsOf(const runtime::RuntimeStatus& status, const std::string& style,
+                   const std::vector<std::string>& qualities) {
+  const runtime::PaintStage::Status& painting = status.painting;
+  std::string rows = row("Camera", cameraText(status.camera)) + row("Style", style);
+  if (painting.hasPainter && painting.quality < qualities.size()) {
+    rows += row("Painting", fmt::format("{:.1f} frames a second, quality {}, {:.0f} ms latency",
+                                        painting.perSecond, qualities[painting.quality],
+                                        hal::toMilliseconds(painting.latency)));
+  }
+  for (const runtime::OutputStage::Status& output : status.outputs) {
+    rows += row("Output " + output.name, outputText(output));
+  }
+  if (!status.camera.lastLoss.empty()) rows += row("Last loss", status.camera.lastLoss);
+  return rows + row("Running for", uptimeText(status.uptime));
+}
+
+constexpr std::string_view kPageHead = R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="refresh" content="5">
+<title>pleinair</title>
+<style>
+body { font: 16px/1.5 sans-serif; max-width: 46em; margin: 2em auto; padding: 0 1em;
+       color: #222; background: #faf8f3; }
+h1 { font-weight: normal; margin-bottom: 0; }
+.state { padding: .2em .8em; border-radius: 1em; color: #fff; font-size: .6em; vertical-align: middle; }
+.well { background: #3a7d44; }
+.ill { background: #b3432b; }
+img { width: 100%; max-width: 480px; box-shadow: 0 2px 8px #0004; display: block; margin: 1em 0; }
+th { text-align: left; padding-right: 1em; vertical-align: top; font-weight: normal; color: #776; }
+a { color: #24527a; }
+</style>
+</head>
+)";
+
+}  // namespace
+
+std::string statusPage(const runtime::RuntimeStatus& status, const std::string& style,
+                       const std::vector<std::string>& qualities) {
+  const bool isWell = status.isHealthy();
+  std::string html(kPageHead);
+  html += fmt::format(
+      "<body>\n<h1>pleinair <span class=\"state {}\">{}</span></h1>\n"
+      "<p>A camera whose live picture is painted.</p>\n",
+      isWell ? "well" : "ill", isWell ? "all is well" : "no pictures are shown");
+  const bool hasPicture = status.painting.painted > 0;
+  html += hasPicture ? "<img src=\"/painting.jpg\" alt=\"The painting a moment ago\">\n"
+                     : "<p>There is no painting yet.</p>\n";
+  html += fmt::format("<table>\n{}</table>\n", rowsOf(status, style, qualities));
+  html +=
+      "<p>For programs: <a href=\"/status\">/status</a> (JSON), <a href=\"/metrics\">/metrics</a> "
+      "(Prometheus), <a href=\"/healthz\">/healthz</a> (200 or 503), "
+      "<a href=\"/painting.jpg\">/painting.jpg</a>.</p>\n</body>\n</html>\n";
+  return html;
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "firmware_app/overlay/step_content.h"
+#include "hal/image.h"
+
+namespace pleinair::app {
+
+/// The instruction of a step as a strip as wide as the output: warnings, number and title, text,
+/// picture, tools, torque, and what is asked for. Not higher than two fifths of the output: the
+/// text is cut there. Any thread; all as OverlayContent has its pictures.
+hal::Image instructionPanel(const StepShown& shown, const std::filesystem::path& folder,
+                            hal::FrameSize output);
+/// The number of a step, and a short text beside it.
+hal::Image stepMarker(const std::string& number, const std::string& text, int outputWidth);
+/// Why nothing is shown on the machine.
+hal::Image doubtBadge(const std::string& text, int outputWidth);
+
+}  // namespace pleinair::app

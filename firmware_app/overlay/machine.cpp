@@ -1,0 +1,65 @@
+#include "firmware_app/overlay/machine.h"
+
+#include <algorithm>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "config/config_error.h"
+#include "config/suggestion.h"
+#include "hal/error.h"
+
+namespace pleinair::app {
+namespace {
+
+bool isSameMachine(const scene::ModelSource& a, const scene::ModelSource& b) {
+  const auto* file = std::get_if<scene::FileSource>(&a);
+  const auto* other = std::get_if<scene::FileSource>(&b);
+  if (file != nullptr && other != nullptr) return file->path.filename() == other->path.filename();
+  return a.index() == b.index();
+}
+
+[[noreturn]] void refuse(const scene::Scene& scene, std::string problem) {
+  std::vector<std::string> names;
+  for (const scene::SceneModel& each : scene.models) names.push_back(each.name);
+  throw hal::Failure({.kind = hal::ErrorKind::kInvalidArgument,
+                      .subject = "procedure.machine",
+                      .problem = std::move(problem),
+                      .remedy = names.empty()
+                                    ? "a scene (--scene) that places the machine on its tags"
+                                    : "choose one of: " + config::listText(names)});
+}
+
+}  // namespace
+
+std::size_t machineIn(const scene::Scene& scene, const procedure::Procedure& procedure,
+                      const std::string& name) {
+  if (scene.models.empty()) refuse(scene, "the scene has no model");
+  if (name != "auto") {
+    const auto named = std::ranges::find(scene.models, name, &scene::SceneModel::name);
+    if (named == scene.models.end())
+      refuse(scene, "the scene has no model " + config::quoted(name));
+    return static_cast<std::size_t>(named - scene.models.begin());
+  }
+  if (scene.models.size() == 1) return 0;
+  std::vector<std::size_t> same;
+  for (std::size_t i = 0; i < scene.models.size(); ++i) {
+    if (isSameMachine(scene.models[i].source, procedure.source)) same.push_back(i);
+  }
+  if (same.size() == 1) return same.front();
+  refuse(scene, same.empty() ? "none of the scene's models is the procedure's"
+                             : "several of the scene's models may be the procedure's");
+}
+
+void putMachine(scene::Scene& scene, std::size_t machine, const procedure::Procedure& procedure) {
+  scene::SceneModel& place = scene.models.at(machine);
+  auto model = std::make_shared<scene::Model>(*procedure.model);
+  for (scene::ModelPart& part : model->parts) part.radiansPerSecond = 0.0;
+  place.model = std::move(model);
+  place.source = procedure.source;
+  place.playback = {};
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "pipeline/procedure/procedure.h"
+#include "pipeline/scene/description/scene.h"
+
+namespace pleinair::app {
+
+/// The model of the scene that a procedure is about. `name`: its name, or "auto": the only model,
+/// or the only one whose source is of the same kind or file as the procedure's. Throws hal::Failure
+/// that lists the models.
+std::size_t machineIn(const scene::Scene& scene, const procedure::Procedure& procedure,
+                      const std::string& name);
+
+/// The scene says where a machine stands, the procedure what it is made of: puts the procedure's
+/// model in the place of that of the scene. Parts stand still, as on a machine under repair.
+void putMachine(scene::Scene& scene, std::size_t machine, const procedure::Procedure& procedure);
+
+}  // namespace pleinair::app

@@ -1,0 +1,163 @@
+#include "firmware_app/overlay/step_content.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "firmware_app/overlay/doubt_words.h"
+#include "firmware_app/overlay/instruction_panel.h"
+#include "firmware_app/overlay/model_picture.h"
+#include "pipeline/overlay/part_shape.h"
+
+namespace pleinair::app {
+namespace {
+
+using overlay::ArrowKind;
+using overlay::OverlayContent;
+using overlay::PartLook;
+using procedure::Step;
+
+constexpr std::size_t kMostArrows = 12;
+constexpr double kInsetShare = 0.36;  // of the output's width
+
+std::optional<ArrowKind> arrowOf(const Step& step) {
+  switch (step.motion) {
+    case procedure::Motion::kDefault:
+      if (!step.removes.empty()) return ArrowKind::kPull;
+      return step.fits.empty() ? std::nullopt : std::optional(ArrowKind::kPush);
+    case procedure::Motion::kNone:
+      return std::nullopt;
+    case procedure::Motion::kPull:
+      return ArrowKind::kPull;
+    case procedure::Motion::kPush:
+      return ArrowKind::kPush;
+    case procedure::Motion::kTurn:
+      return ArrowKind::kTurn;
+    case procedure::Motion::kScrew:
+      return ArrowKind::kScrew;
+    case procedure::Motion::kUnscrew:
+      return ArrowKind::kUnscrew;
+  }
+  return std::nullopt;
+}
+
+PartLook lookOf(procedure::PartView view) {
+  switch (view) {
+    case procedure::PartView::kPlain:
+      return PartLook::kPlain;
+    case procedure::PartView::kFocus:
+      return PartLook::kFocus;
+    case procedure::PartView::kTint:
+      return PartLook::kTint;
+    case procedure::PartView::kOutline:
+      return PartLook::kOutline;
+    case procedure::PartView::kHidden:
+    case procedure::PartView::kGhost:
+      return PartLook::kHidden;
+  }
+  return PartLook::kPlain;
+}
+
+/// How far parts are shown from their place: all of a step alike, so that they keep their order.
+double apartMetres(const scene::Model& machine, const std::vector<std::size_t>& parts) {
+  const double whole = scene::boundingSphere(machine).radiusMetres;
+  double longest = 0.0;
+  for (const std::size_t each : parts) {
+    longest = std::max(longest, overlay::shapeOf(machine, each).halfLength);
+  }
+  return std::clamp(2.4 * longest, 0.18 * whole, 0.55 * whole);
+}
+
+void addGhosts(const scene::Model& machine, const std::vector<std::size_t>& parts, bool comesHome,
+               OverlayContent& content) {
+  if (parts.empty()) return;
+  const double apart = apartMetres(machine, parts);
+  for (const std::size_t each : parts) {
+    content.ghosts.push_back({.part = each,
+                              .apartMetres = apart * overlay::shapeOf(machine, each).axis,
+                              .comesHome = comesHome});
+  }
+}
+
+void addParts(const StepShown& shown, const scene::Model& machine, OverlayContent& content) {
+  content.looks.assign(machine.parts.size(), PartLook::kPlain);
+  for (const std::size_t part : shown.partsOff) content.looks[part] = PartLook::kHidden;
+  if (shown.step == procedure::kEnd) return;
+  const Step& step = shown.procedure->steps[shown.step];
+  for (const std::size_t part : step.parts) {
+    if (content.looks[part] != PartLook::kHidden) content.looks[part] = PartLook::kFocus;
+  }
+  for (const auto& [part, view] : step.views) {
+    content.looks[part] = lookOf(view);
+    if (view == procedure::PartView::kGhost) content.ghosts.push_back({.part = part});
+  }
+  for (const auto& [part, metres] : step.apart) {
+    content.ghosts.push_back({.part = part,
+                              .apartMetres = metres * overlay::shapeOf(machine, part).axis,
+                              .stays = true});
+  }
+  if (step.motion != procedure::Motion::kNone && step.apart.empty()) {
+    addGhosts(machine, step.removes, false, content);
+    addGhosts(machine, step.fits, true, content);
+  }
+  const std::optional<ArrowKind> kind = arrowOf(step);
+  if (!kind) return;
+  const std::vector<std::size_t>& moved = !step.removes.empty() ? step.removes
+                                          : !step.fits.empty()  ? step.fits
+                                                                : step.parts;
+  const bool isAlong = *kind == ArrowKind::kPull || *kind == ArrowKind::kPush;
+  // Along one axis one arrow says it: that of the part that moves farthest out.
+  std::vector<glm::dvec3> axes;
+  for (const std::size_t part : moved) {
+    if (content.arrows.size() == kMostArrows) break;
+    const overlay::PartShape shape = overlay::shapeOf(machine, part);
+    const glm::dvec3 foot = shape.centre - glm::dot(shape.centre, shape.axis) * shape.axis;
+    const bool isKnown = std::ranges::any_of(axes, [&](const glm::dvec3& each) {
+      return glm::length(each - foot) < 0.5 * shape.radius + 1e-6;
+    });
+    if (isAlong && isKnown) continue;
+    axes.push_back(foot);
+    content.arrows.push_back({.kind = *kind, .part = part});
+  }
+}
+
+void addLabel(const StepShown& shown, int width, OverlayContent& content) {
+  if (shown.step == procedure::kEnd) return;
+  const Step& step = shown.procedure->steps[shown.step];
+  if (step.parts.empty()) return;
+  // How many screws there are; of other things the count says little.
+  const bool isScrewed = std::ranges::all_of(content.arrows, [](const overlay::Arrow& each) {
+    return each.kind == ArrowKind::kScrew || each.kind == ArrowKind::kUnscrew;
+  });
+  const std::size_t moved = isScrewed ? content.arrows.size() : 0;
+  std::string text;
+  if (moved > 1 && moved < kMostArrows) text = fmt::format("×{}", moved);
+  if (step.torque) text += (text.empty() ? "" : "  ") + step.torque->text;
+  content.labels.push_back(
+      {.picture = stepMarker(fmt::format("{}", shown.step + 1), text, width), .parts = step.parts});
+}
+
+}  // namespace
+
+OverlayContent stepContent(const StepShown& shown, const scene::Model& machine,
+                           const std::filesystem::path& folder, hal::FrameSize output,
+                           const hal::Image* inset) {
+  OverlayContent content;
+  addParts(shown, machine, content);
+  addLabel(shown, output.width, content);
+  content.panel = instructionPanel(shown, folder, output);
+  const int width = static_cast<int>(kInsetShare * output.width);
+  content.inset = inset != nullptr ? *inset
+                                   : modelPicture(machine, content.looks, content.ghosts,
+                                                  {width, std::max(1, 3 * width / 4)});
+  for (std::size_t i = 0; i < overlay::kDoubts; ++i) {
+    const std::string text = wordsOf(static_cast<overlay::Doubt>(i), shown.language);
+    if (!text.empty()) content.badges.at(i) = doubtBadge(text, output.width);
+  }
+  return content;
+}
+
+}  // namespace pleinair::app

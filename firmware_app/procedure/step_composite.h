@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hal/image.h"
+
+namespace pleinair::app {
+
+/// What a pixel of a step's picture shows.
+enum class StepPixel : std::uint8_t {
+  kGround,      ///< nothing of the model
+  kContext,     ///< other parts
+  kFocus,       ///< a part of the step
+  kFocusHidden  ///< other parts before a part of the step
+};
+
+/// Draws a step's picture from the shaded model: other parts pale, the step's parts in the colour
+/// that is reserved for instructions and outlined, and hatched where other parts hide them.
+/// `shaded` is RGB8, `pixels` row by row. Returns RGB8 of half the size, so that edges are smooth.
+/// Precondition: an even size.
+hal::Image stepComposite(const hal::Image& shaded, const std::vector<StepPixel>& pixels);
+
+}  // namespace pleinair::app

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "hal/image.h"
+#include "pipeline/procedure/procedure.h"
+
+namespace pleinair::app {
+
+/// A picture with a step's text below: number and title, warnings, text, tools, torque, the check
+/// with its limits, and where each outcome leads. RGB8, as wide as the picture, `textRows` px
+/// higher; what does not fit is cut.
+hal::Image stepTile(const procedure::Procedure& procedure, std::size_t step,
+                    const std::string& language, const hal::Image& picture, int textRows);
+
+/// The rows that the step's text needs below a picture of this width.
+int stepTextRows(const procedure::Procedure& procedure, std::size_t step,
+                 const std::string& language, int width);
+
+}  // namespace pleinair::app

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+#include "pipeline/scene/models/mesh.h"
+#include "pipeline/scene/models/model.h"
+
+namespace pleinair::app {
+
+/// From where a step's parts are looked at: degrees about the vertical, 0 from the front (−y), and
+/// above the ground.
+struct ViewAngles {
+  double azimuthDeg = 0.0;
+  double elevationDeg = 0.0;
+};
+
+/// The views that are tried, the usual one first.
+std::span<const ViewAngles> candidateViews();
+
+/// The model with these parts only, at rest. Precondition: parts rise.
+scene::Model withParts(const scene::Model& model, std::span<const std::size_t> parts);
+
+/// Vertical field of view of the pictures.
+inline constexpr double kStepViewDeg = 30.0;
+
+/// Camera (OpenCV's frame: x right, y down, z ahead) from model, so that `focus` fills about a
+/// third of the picture's height, and at least a part of `whole` is seen around it.
+glm::dmat4 cameraFromModel(const ViewAngles& view, const scene::BoundingSphere& focus,
+                           const scene::BoundingSphere& whole);
+
+}  // namespace pleinair::app

@@ -1,0 +1,92 @@
+#include "hal/cameras/libcamera/settings.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace pleinair::hal::libcamera {
+namespace {
+
+std::string_view nameOf(Control control) {
+  switch (control) {
+    case Control::kExposure:
+      return "exposure";
+    case Control::kGain:
+      return "gain";
+    case Control::kFocus:
+      return "focus";
+    case Control::kWhiteBalance:
+      return "white_balance";
+  }
+  return "";
+}
+
+Error missing(Device& device, const std::string& what) {
+  std::vector<std::string> has;
+  for (const Control each : kControls) {
+    const bool hasValue = device.range(each).has_value();
+    const bool hasAutomatic = device.hasAutomatic(each);
+    if (!hasValue && !hasAutomatic) continue;
+    has.push_back(fmt::format("{}{}", nameOf(each),
+                              !hasValue       ? " (auto only)"
+                              : !hasAutomatic ? " (no auto)"
+                                              : ""));
+  }
+  return {.kind = ErrorKind::kUnsupported,
+          .problem = "has no control of " + what,
+          .remedy = has.empty() ? "remove the setting; the camera has no such controls"
+                                : fmt::format("remove the setting; the camera has {}",
+                                              fmt::join(has, ", "))};
+}
+
+template <class T, class ToUnits>
+Result<void> set(Device& device, Control control, const std::optional<AutomaticOr<T>>& wanted,
+                 ToUnits toUnits, StartSettings& settings) {
+  if (!wanted) return {};
+  auto& setting = settings.controls.at(static_cast<std::size_t>(control));
+  if (std::holds_alternative<Automatic>(*wanted)) {
+    if (!device.hasAutomatic(control)) {
+      return tl::unexpected(missing(device, fmt::format("automatic {}", nameOf(control))));
+    }
+    setting = Automatic{};
+    return {};
+  }
+  const std::optional<ControlRange> range = device.range(control);
+  if (!range) return tl::unexpected(missing(device, std::string(nameOf(control))));
+  const double value = toUnits(std::get<T>(*wanted), *range);
+  setting = std::clamp(std::isnan(value) ? range->min : value, range->min,
+                       std::max(range->min, range->max));
+  return {};
+}
+
+}  // namespace
+
+Result<StartSettings> settingsFor(Device& device, const StreamRequest& request) {
+  StartSettings settings;
+  const CameraControls& controls = request.controls;
+  const auto microseconds = [](Duration time, const ControlRange&) {
+    return std::chrono::duration<double, std::micro>(time).count();
+  };
+  const auto share = [](double part, const ControlRange& range) {
+    return range.min + part * (range.max - range.min);
+  };
+  const auto same = [](double value, const ControlRange&) { return value; };
+  Result<void> done = set(device, Control::kExposure, controls.exposure, microseconds, settings);
+  if (done) done = set(device, Control::kGain, controls.gain, share, settings);
+  if (done) done = set(device, Control::kFocus, controls.focus, share, settings);
+  if (done) done = set(device, Control::kWhiteBalance, controls.whiteBalance, same, settings);
+  if (!done) return tl::unexpected(done.error());
+  if (const auto periods = device.periods(); periods && request.framePeriod) {
+    settings.framePeriod =
+        std::clamp(*request.framePeriod, (*periods)[0], std::max((*periods)[0], (*periods)[1]));
+  }
+  return settings;
+}
+
+}  // namespace pleinair::hal::libcamera

@@ -1,0 +1,118 @@
+#include "pipeline/marks/front_movers.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <span>
+
+#include <glm/vec4.hpp>
+
+#include "pipeline/gpu/buffer.h"
+#include "pipeline/gpu/program.h"
+
+namespace pleinair::marks {
+namespace {
+
+using gpu::ImageAccess;
+using gpu::TextureFilter;
+using gpu::TextureFormat;
+
+/// As in shaders/front_movers.comp.
+struct GpuFootprints {
+  std::array<glm::vec4, 2 * scene::kMaxFootprints> corners{};
+};
+
+constexpr GLbitfield kStored = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
+
+}  // namespace
+
+struct FrontMovers::State {
+  State(const gpu::ShaderLibrary& library, hal::FrameSize size)
+      : find(library.compute("pipeline/marks/shaders/front_movers.comp")),
+        show(library.compute("pipeline/marks/shaders/front_labels.comp")),
+        labels(TextureFormat::kRgba16f, size, TextureFilter::kLinear),
+        footprints(sizeof(GpuFootprints), gpu::BufferUsage::kDynamic) {
+    for (gpu::Texture& each : fronts) {
+      each = gpu::Texture(TextureFormat::kRgba16f, size, TextureFilter::kLinear);
+    }
+  }
+  void write(const scene::ArFrame& frame);
+  void spread(const scene::ArFrame& frame, const gpu::Texture& moverLabels, bool grants,
+              float passed);
+
+  gpu::Program find;
+  gpu::Program show;
+  std::array<gpu::Texture, 2> fronts;
+  gpu::Texture labels;
+  gpu::Buffer footprints;
+  GpuFootprints staged;
+  std::size_t now = 0;
+  bool hasPast = false;
+};
+
+/// Px of the full image.
+void FrontMovers::State::write(const scene::ArFrame& frame) {
+  const glm::vec2 scale(1.0 / frame.pixelsOfFull());
+  const auto packed = [&](glm::vec2 a, glm::vec2 b) { return glm::vec4(a * scale, b * scale); };
+  for (std::size_t i = 0; i < frame.footprints.size(); ++i) {
+    const auto& px = frame.footprints[i].px;
+    staged.corners.at(2 * i) = packed(px[0], px[1]);
+    staged.corners.at(2 * i + 1) = packed(px[2], px[3]);
+  }
+  footprints.write(std::as_bytes(std::span(&staged, 1)));
+}
+
+void FrontMovers::State::spread(const scene::ArFrame& frame, const gpu::Texture& moverLabels,
+                                bool grants, float passed) {
+  const std::size_t before = now;
+  now = 1 - now;
+  find.use()
+      .texture("labels", moverLabels)
+      .texture("before", fronts.at(before))
+      .texture("ids", *frame.ids)
+      .uniformBlock("Footprints", footprints, 0, sizeof(GpuFootprints))
+      .set("footprintCount", grants ? static_cast<int>(frame.footprints.size()) : 0)
+      .set("hasPast", hasPast ? 1 : 0)
+      .set("passed", passed)
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+      .image("front", fronts.at(now), ImageAccess::kWrite)
+      .dispatch({labels.size().width, labels.size().height}, kStored);
+  hasPast = true;
+}
+
+FrontMovers::FrontMovers(const gpu::ShaderLibrary& library, hal::FrameSize cells)
+    : state_(std::make_unique<State>(library, cells)) {}
+
+FrontMovers::~FrontMovers() = default;
+
+void FrontMovers::update(const scene::ArFrame& frame, const gpu::Texture& moverLabels,
+                         bool isStanding, float stepSeconds) {
+  State& s = *state_;
+  assert(frame.hasObjects && moverLabels.size() == s.labels.size());
+  s.write(frame);
+  s.spread(frame, moverLabels, isStanding, stepSeconds / kStaysSeconds);
+  // Again, so that a fast mover is found as a whole within a few frames.
+  s.spread(frame, moverLabels, false, 0.0F);
+  s.show.use()
+      .texture("labels", moverLabels)
+      .texture("front", s.fronts.at(s.now))
+      .texture("ids", *frame.ids)
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+      .image("seenLabels", s.labels, ImageAccess::kWrite)
+      .dispatch({s.labels.size().width, s.labels.size().height}, kStored);
+}
+
+void FrontMovers::reset() {
+  state_->hasPast = false;
+}
+
+const gpu::Texture& FrontMovers::front() const {
+  return state_->fronts.at(state_->now);
+}
+
+const gpu::Texture& FrontMovers::seenLabels() const {
+  return state_->labels;
+}
+
+}  // namespace pleinair::marks

@@ -1,0 +1,152 @@
+// Purpose: what a stroke is painted on, and the direction, the colour and the detail that it finds
+//          there: those of its own patch, segment or layer.
+// Inputs:  field: tensors to follow, detailField: tensors with the detail; modelField,
+//          modelDetailField, moverField: those of virtual objects and of movers, each with its
+//          scale, px of the full image to texture coordinates; mover_labels.glsl's and
+//          mover_motion.glsl's; paint, modelPaint, moverPaint: the reduced images of the
+//          background, of models and of movers; finePaint, fineGround: the finest of models and of
+//          the background; paintTexel: the width of modelPaint's texels, px of the full image;
+//          labels if hasLabels: of pixels, in the lower bits of ArFrame::forms or of
+//          StrokeSet::update()'s borders, which labelMask tells; hasSegments: they have segments'
+//          labels, too; fullSize, px; pixelsOfFull: pixels of `labels` to a px of the full image;
+//          modelDetail: factor of the detail on virtual surfaces; looseness, and loosePx: the
+//          mover's motion, px a frame, from which and up to which it grows; clips: strokes end at
+//          the borders of models, patches and movers.
+// Outputs: functions. Precision: highp.
+#include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/shaders/mover_motion.glsl"
+#include "pipeline/marks/shaders/stroke_border.glsl"
+#include "pipeline/scene/render/shaders/surface_form.glsl"
+uniform highp sampler2D field;
+uniform highp sampler2D detailField;
+uniform highp sampler2D modelField;
+uniform highp sampler2D modelDetailField;
+uniform highp sampler2D moverField;
+uniform highp sampler2D paint;
+uniform highp sampler2D modelPaint;
+uniform highp sampler2D moverPaint;
+uniform highp sampler2D finePaint;
+uniform highp sampler2D fineGround;
+uniform float paintTexel;
+uniform highp usampler2D labels;
+uniform uint labelMask;
+uniform bool hasLabels;
+uniform bool hasSegments;
+uniform vec2 fullSize;
+uniform vec2 pixelsOfFull;
+uniform vec2 fieldScale;  // px of the full image to texture coordinates of the fields
+uniform vec2 detailScale;
+uniform vec2 moverScale;
+uniform float modelDetail;  // factor of the detail on virtual surfaces
+uniform float looseness;
+uniform vec2 loosePx;  // a frame
+uniform bool clips;  // strokes end at the borders of models, patches and movers
+
+const vec2 kUpright = vec2(1.0, 0.0);  // a tensor: strokes of movers without any edge
+
+// What the stroke is painted on.
+struct Support {
+  bool isModel;
+  uint label;
+  bool isMixed;  // the reduced image mixes its colours with those of what is beside it
+  bool isOnMover;
+  float looseness;  // how much looser it is painted, in [0, 1]
+  vec2 along;       // a tensor, of strokes along the mover's motion
+};
+
+ivec2 pixelAt(vec2 px) {
+  return clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(labels, 0) - 1);
+}
+
+uint labelsAt(vec2 px) { return hasLabels ? texelFetch(labels, pixelAt(px), 0).r : 0u; }
+// The label of a surface; movers are told by mover_labels.glsl.
+uint labelOfSurface(uint texel) {
+  uint label = texel & labelMask;
+  return label == kMoverLabel ? 0u : label;
+}
+uint labelAt(vec2 px) { return labelOfSurface(labelsAt(px)); }
+
+// Whether a step from one pixel of `labels` to the next goes over a joint of a smooth surface.
+bool isOverJoint(uint from, uint to) {
+  return hasSegments ? isOpen(to) && otherOf(to) == ownOf(from) : isOneJoint(from, to);
+}
+
+// Whether another patch is within a texel of the reduced image, at a third of it, two or all.
+bool isMixedAt(vec2 px, uint label) {
+  for (int i = 0; i < 12; ++i) {
+    float reach = paintTexel * float(1 + i / 4) / 3.0;
+    float side = (i & 1) == 0 ? -reach : reach;
+    vec2 arm = (i & 2) == 0 ? vec2(side, 0.0) : vec2(0.0, side);
+    if (!mayCover(label, labelAt(px + arm))) return true;
+  }
+  return false;
+}
+
+Support supportOf(bool isModel, uint label, bool isOnMover, vec2 px) {
+  Support on = Support(isModel, label, false, isOnMover, 0.0, kUpright);
+  bool hasOthers = isModel || (hasSegments && !isOnMover && label != 0u);
+  on.isMixed = clips && hasOthers && isMixedAt(px, label);
+  vec2 moved;
+  if (!isOnMover || looseness <= 0.0 || !findMoverMotion(px, moved)) return on;
+  on.looseness = looseness * smoothstep(loosePx.x, max(loosePx.y, loosePx.x + 1e-3), length(moved));
+  on.along = vec2(moved.y * moved.y - moved.x * moved.x, -2.0 * moved.x * moved.y) /
+             max(dot(moved, moved), 1e-6);
+  return on;
+}
+
+vec2 directionAt(vec2 px, Support on) {
+  vec2 tensor;
+  if (on.isModel) {
+    tensor = textureLod(modelField, px * fieldScale, 0.0).xy;
+  } else if (on.isOnMover) {
+    tensor = textureLod(moverField, px * moverScale, 0.0).xy;
+    tensor = dot(tensor, tensor) > 1e-3 ? tensor : kUpright;
+  } else {
+    tensor = textureLod(field, px * fieldScale, 0.0).xy;
+  }
+  tensor *= inversesqrt(max(dot(tensor, tensor), 1e-12));
+  tensor = mix(tensor, on.along, 0.8 * on.looseness);
+  tensor *= inversesqrt(max(dot(tensor, tensor), 1e-12));
+  // Half the angle by square roots; the stroke runs across the gradient.
+  vec2 gradient = vec2(sqrt(max(0.0, 0.5 + 0.5 * tensor.x)), sqrt(max(0.0, 0.5 - 0.5 * tensor.x)));
+  if (tensor.y < 0.0) gradient.y = -gradient.y;
+  return vec2(-gradient.y, gradient.x);
+}
+
+// The colour of a patch or segment within a texel of the reduced image.
+vec4 ownColour(vec2 px, Support on) {
+  vec4 sum = vec4(0.0);
+  for (int i = 0; i < 9; ++i) {
+    vec2 at = px + 0.4 * paintTexel * (vec2(i % 3, i / 3) - 1.0);
+    if (!mayCover(on.label, labelAt(at))) continue;
+    sum += on.isModel ? textureLod(finePaint, at / fullSize, 0.0)
+                      : textureLod(fineGround, at / fullSize, 0.0);
+  }
+  return sum;
+}
+
+// The colour of the stroke's own patch or layer, if any of it is near.
+vec3 colourAt(vec2 px, Support on) {
+  const float kOthers = 1e-3;  // weight of the other layer
+  vec2 at = px / fullSize;
+  if (on.isModel) {
+    vec4 seen = on.isMixed ? ownColour(px, on) : vec4(0.0);
+    if (seen.a <= 0.0) seen = textureLod(modelPaint, at, 0.0);
+    return seen.rgb / max(seen.a, 1e-4);
+  }
+  vec4 ground = on.isMixed ? ownColour(px, on) : vec4(0.0);
+  if (ground.a <= 0.0) ground = textureLod(paint, at, 0.0);
+  vec4 mover = textureLod(moverPaint, at, 0.0);
+  vec4 seen = on.isOnMover ? mover + kOthers * ground : ground + kOthers * mover;
+  return seen.rgb / max(seen.a, 1e-4);
+}
+
+float detailAt(vec2 px, Support on) {
+  const float kLooseDetail = 0.6;
+  if (on.isModel) {
+    return modelDetail * textureLod(modelDetailField, px * detailScale, 0.0).w;
+  }
+  float detail = on.isOnMover ? textureLod(moverField, px * moverScale, 0.0).w
+                              : textureLod(detailField, px * detailScale, 0.0).w;
+  return mix(1.0, kLooseDetail, on.looseness) * detail;
+}

@@ -1,0 +1,149 @@
+// Purpose: walks one arm of a stroke along the field (thesis §4.4) until it turns too sharply,
+//          leaves what it lies on, or its colour or detail is no longer the stroke's.
+// Inputs:  stroke_support.glsl's; depth (ArFrame) if hasObjects, within objectBounds; segment: the
+//          length of a step, px of the full image; steps: of an arm, at most kArm; minSteps: of one
+//          that detail or colour ends; colourThreshold; cutOff: cosine of the sharpest turn;
+//          detailBand: the detail in which the layer is painted.
+// Outputs: functions. Precision: highp.
+#include "pipeline/marks/shaders/colour_difference.glsl"
+#include "pipeline/marks/shaders/stroke.glsl"
+#include "pipeline/marks/shaders/stroke_support.glsl"
+#include "pipeline/scene/render/shaders/depth_step.glsl"
+uniform highp sampler2D depth;
+uniform bool hasObjects;
+uniform vec4 objectBounds;
+uniform float segment;       // px
+uniform float steps;         // at most kArm
+uniform float minSteps;
+uniform float colourThreshold;
+uniform float cutOff;        // cosine
+uniform vec2 detailBand;  // range of detail in which the layer is painted
+
+float depthAt(vec2 px) { return texelFetch(depth, pixelAt(px), 0).r; }
+
+// The part of a segment that lies on its patch, in [0, 1]; a step of a pixel at a time; segments of
+// the image are never as narrow as patches. Where trunk and limb meet on a smooth surface, it may go
+// on for kOverJoint; `strayed`: the px so far, of the whole arm.
+float partOnPatch(vec2 from, vec2 to, Support on, inout float strayed) {
+  float stride = hasObjects ? 1.0 : 3.0;
+  float count = max(1.0, ceil(distance(from, to) * max(pixelsOfFull.x, pixelsOfFull.y) / stride));
+  vec2 pace = (to - from) / count;
+  uint label = on.isOnMover ? 0u : on.label;  // models alone have labels in the image
+  if (!on.isModel && !hasSegments) return 1.0;
+  bool isDeep = on.isModel && depthRange.y > 0.0;
+  float before = isDeep ? depthAt(from - pace) : 0.0;
+  float here = isDeep ? depthAt(from) : 0.0;
+  uint last = labelsAt(from);
+  for (float i = 1.0; i <= count; i += 1.0) {
+    vec2 at = from + i * pace;
+    uint texel = labelsAt(at);
+    bool isUnder = !on.isModel && isPatch(labelOfSurface(texel));
+    if (!isUnder && !mayCover(label, labelOfSurface(texel))) {
+      bool isSame = labelOfSurface(texel) == labelOfSurface(last);
+      bool goesOn = isDeep && (isSame || isOverJoint(last, texel));
+      strayed += length(pace);
+      if (!goesOn || strayed > kOverJoint) {
+        bool isEarly = stride > 1.0 && !mayCover(label, labelAt(at - 0.5 * pace));
+        return max(0.0, (i - (isEarly ? 0.75 : stride > 1.0 ? 0.25 : 0.5)) / count);
+      }
+    }
+    last = texel;
+    if (!isDeep) continue;
+    float next = depthAt(at);
+    if (isDepthStep(before - 2.0 * here + next, here)) return max(0.0, (i - 1.5) / count);
+    before = here;
+    here = next;
+  }
+  return 1.0;
+}
+
+// The anchor's place counts more than the rest of the stroke, or small lights would vanish.
+const float kOwnWeight = 3.0;
+
+struct Arm {
+  vec2 directions[kArm];
+  float length;
+  vec3 colour;  // sum over its visible part
+  float weight;
+};
+
+// Whether an arm may come to labels other than the background's 0.
+bool reachesLabels(vec2 px) {
+  if (hasSegments || !hasLabels) return hasLabels;
+  vec2 reach = (segment * float(kArm) + 2.0) * pixelsOfFull;
+  vec2 at = px * pixelsOfFull;
+  return all(greaterThanEqual(at, objectBounds.xy - reach)) &&
+         all(lessThanEqual(at, objectBounds.zw + reach));
+}
+
+const float kBehind = 0.025;  // of the image's width: so far strokes go on behind models
+
+Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
+  bool mayLeave = clips && reachesLabels(from);
+  // The camera image goes on behind a model: strokes do, too, and are clipped where it is drawn. They
+  // do not go far: nothing is known of what is there.
+  bool goesBehind = mayLeave && !on.isModel;
+  float left = kBehind * fullSize.x;
+  Arm arm;
+  arm.length = steps;
+  arm.colour = vec3(0.0);
+  arm.weight = 0.0;
+  bool goesOn = true;
+  float before = 0.0;
+  vec2 at = from;
+  float strayed = 0.0;
+  for (int i = 0; i < kArm; ++i) {
+    vec2 direction = directionAt(at + 0.5 * segment * heading, on);
+    direction = vec2(hand.x * direction.x - hand.y * direction.y,
+                     hand.y * direction.x + hand.x * direction.y);
+    float along = dot(direction, heading);
+    if (along < 0.0) direction = -direction;
+    if (goesOn && i > 0 && abs(along) < cutOff) {
+      goesOn = false;
+      arm.length = min(arm.length, float(i));
+    }
+    arm.directions[i] = direction;
+    if (goesOn && mayLeave) {
+      // An arm ends where another surface begins.
+      float part = partOnPatch(at, at + segment * direction, on, strayed);
+      if (part < 1.0) {
+        arm.length = min(arm.length, float(i) + part);
+        goesOn = false;
+      }
+    }
+    at += segment * direction;
+    if (goesBehind && goesOn && isPatch(labelAt(at))) {
+      if (left < segment) arm.length = min(arm.length, float(i) + left / segment);
+      goesOn = left >= segment;
+      left -= segment;
+      heading = direction;
+      continue;
+    }
+    vec3 there = goesOn ? colourAt(at, on) : own;
+    float difference = apart(there, own);
+    if (goesOn && clips && (moverAt(at).r > 0.5) != on.isOnMover) {
+      // It does not cross a mover's border.
+      bool isEarly = (moverAt(at - 0.5 * segment * direction).r > 0.5) != on.isOnMover;
+      arm.length = min(arm.length, float(i) + (isEarly ? 0.25 : 0.75));
+      goesOn = false;
+    }
+    if (goesOn && detailAt(at, on) < 0.4 * detailBand.x) {
+      // A finer layer's stroke does not enter regions of coarser layers.
+      arm.length = min(arm.length, max(float(i) + 0.5, minSteps));
+      goesOn = false;
+    }
+    if (goesOn && difference > colourThreshold) {
+      float part = clamp((colourThreshold - before) / max(difference - before, 1e-4), 0.0, 1.0);
+      arm.length = min(arm.length, max(float(i) + part, minSteps));
+      goesOn = false;
+    }
+    if (goesOn && float(i) < steps) {
+      float weight = 1.0 - 0.7 * difference / colourThreshold;
+      arm.colour += weight * there;
+      arm.weight += weight;
+    }
+    before = difference;
+    heading = direction;
+  }
+  return arm;
+}

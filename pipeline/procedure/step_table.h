@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+
+#include "config/toml_reader.h"
+#include "pipeline/procedure/procedure.h"
+
+namespace pleinair::procedure {
+
+/// The id and the line of a [[step]]. Throws config::ConfigError for an id that is none, that is
+/// reserved, or that an earlier step has.
+Step readStepId(const config::TomlTable& table, const Procedure& procedure);
+
+/// Reads the rest of step `index`. Precondition: the procedure has all steps with their ids, and
+/// its tools and warnings; without a model, parts are not looked up. Throws config::ConfigError.
+void readStep(const config::TomlTable& table, Procedure& procedure, std::size_t index);
+
+}  // namespace pleinair::procedure

@@ -1,0 +1,75 @@
+#include "firmware_app/procedure/step_pictures.h"
+
+#include <gtest/gtest.h>
+
+#include "hal/error.h"
+#include "pipeline/gpu/egl_context.h"
+#include "pipeline/procedure/procedure_file.h"
+
+namespace pleinair::app {
+namespace {
+
+const std::filesystem::path kFolder =
+    std::filesystem::path(PLEINAIR_TESTS_DIR).parent_path() / "config/procedures/gearbox";
+constexpr hal::FrameSize kSize{240, 180};
+
+/// The share of pixels in the colour that is reserved for instructions, in percent.
+double reservedPercent(const hal::Image& image) {
+  int count = 0;
+  for (int y = 0; y < image.size().height; ++y) {
+    const auto row = image.view().row(0, y);
+    for (std::size_t i = 0; i + 2 < row.size(); i += 3) count += row[i] > row[i + 2] + 100 ? 1 : 0;
+  }
+  return 100.0 * count / (image.size().width * image.size().height);
+}
+
+/// The share of pixels that are not the paper, in percent.
+double drawnPercent(const hal::Image& image) {
+  int count = 0;
+  for (int y = 0; y < image.size().height; ++y) {
+    const auto row = image.view().row(0, y);
+    for (std::size_t i = 0; i + 2 < row.size(); i += 3) count += row[i + 1] < 245 ? 1 : 0;
+  }
+  return 100.0 * count / (image.size().width * image.size().height);
+}
+
+class StepPicturesTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      const gpu::EglContext context;
+    } catch (const hal::Failure& failure) {
+      GTEST_SKIP() << failure.what();
+    }
+  }
+  std::size_t step(const char* id) const { return *procedure_.findStep(id); }
+
+  procedure::Procedure procedure_ = procedure::loadProcedure(kFolder);
+};
+
+TEST_F(StepPicturesTest, EveryStepShowsItsParts) {
+  StepPictures pictures(procedure_, kSize);
+  for (std::size_t i = 0; i < procedure_.steps.size(); ++i) {
+    const hal::Image image = pictures.draw(i, {});
+    EXPECT_EQ(image.size(), kSize);
+    EXPECT_GT(reservedPercent(image), 0.15) << procedure_.steps[i].id;
+    EXPECT_LT(reservedPercent(image), 60.0) << procedure_.steps[i].id;
+  }
+}
+
+TEST_F(StepPicturesTest, PartsThatAreOffAreNotDrawn) {
+  StepPictures pictures(procedure_, kSize);
+  const std::size_t plug = step("drain");
+  const double whole = drawnPercent(pictures.draw(plug, {}));
+  std::set<std::size_t> others;
+  for (std::size_t part = 0; part < procedure_.model->parts.size(); ++part) {
+    if (part != procedure_.steps[plug].parts.front()) others.insert(part);
+  }
+  const hal::Image alone = pictures.draw(plug, others);
+  EXPECT_GT(whole, 20.0);
+  EXPECT_LT(drawnPercent(alone), 2.0);
+  EXPECT_GT(reservedPercent(alone), 0.15) << "the step's part is drawn all the same";
+}
+
+}  // namespace
+}  // namespace pleinair::app

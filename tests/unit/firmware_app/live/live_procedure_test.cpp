@@ -1,0 +1,257 @@
+#include "firmware_app/live/live_procedure.h"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "config/config_error.h"
+#include "pipeline/record/record_check.h"
+#include "tests/support/file_size_limit.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pleinair::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+using testing::HasSubstr;
+
+void write(const fs::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+class LiveProcedureTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(procedure());
+    fs::create_directories(records());
+    writeSteps("max = 2");
+    write(procedure() / "en.md",
+          "# Service\n## open: Open it\nLift the *cover*.\n## look: Look\n? Is it clean?\n"
+          "## gap: Measure\n? Gap\n## shoot: Photograph\n");
+  }
+
+  void writeSteps(const std::string& limit) const {
+    write(procedure() / "procedure.toml",
+          "name = \"service\"\nversion = \"1\"\nlanguages = [\"en\"]\n"
+          "step = [\n{ id = \"open\", removes = [\"oil_plug\"], torque = \"5 Nm\" },\n"
+          "{ id = \"look\", check = \"yes_no\" },\n"
+          "{ id = \"gap\", check = { kind = \"value\", unit = \"mm\", " +
+              limit + " } },\n{ id = \"shoot\", check = \"photo\" }]\n" +
+              "[model]\nsource = \"builtin:gearbox\"\n");
+  }
+
+  LiveProcedure begin(bool isRecorded = true) {
+    return LiveProcedure({.folder = procedure(),
+                          .records = isRecorded ? records() : fs::path(),
+                          .operatorName = "Jo",
+                          .program = "1"},
+                         clock_);
+  }
+
+  /// Presses keys with spaces between them.
+  static void press(LiveProcedure& procedure, const std::string& keys) {
+    std::size_t at = 0;
+    while (at < keys.size()) {
+      const std::size_t end = std::min(keys.find(' ', at), keys.size());
+      EXPECT_TRUE(procedure.press({.name = keys.substr(at, end - at)}))
+          << keys.substr(at, end - at);
+      at = end + 1;
+    }
+  }
+
+  static hal::Image picture() {
+    return hal::Image({.pixelFormat = hal::PixelFormat::kRgb8, .size = {8, 8}});
+  }
+
+  fs::path procedure() const { return folder_.path() / "service"; }
+  fs::path records() const { return folder_.path() / "records"; }
+
+  support::TemporaryFolder folder_;
+  hal::SteppedClock clock_;
+};
+
+TEST_F(LiveProcedureTest, KeysStepThroughItToTheSignOff) {
+  LiveProcedure live = begin();
+  EXPECT_THAT(live.text(),
+              HasSubstr("1/4  Open it\nLift the cover.\nTorque: 5 Nm\nPage Down: done"));
+  press(live, "pagedown");
+  EXPECT_EQ(live.status().step, "look");
+  EXPECT_EQ(live.status().number, 2U);
+  press(live, "y 1 . 5 return");
+  EXPECT_EQ(live.status().step, "shoot");
+  EXPECT_FALSE(live.takeStillRequest());
+  press(live, "pagedown");
+  EXPECT_TRUE(live.takeStillRequest());
+  EXPECT_FALSE(live.takeStillRequest()) << "once";
+  EXPECT_EQ(live.status().step, "shoot") << "until the still is saved";
+  live.putStill(picture());
+  EXPECT_EQ(live.status().step, "end");
+  EXPECT_THAT(live.text(), HasSubstr("Enter: sign off"));
+  press(live, "return");
+  EXPECT_TRUE(live.status().isSignedOff);
+  EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("signed off; final hash "));
+  EXPECT_TRUE(record::checkRecordFile(live.status().record)->findings.empty());
+  EXPECT_FALSE(live.press({.name = "pageup"})) << "it is over";
+}
+
+TEST_F(LiveProcedureTest, APedalAnswersNoQuestion) {
+  LiveProcedure live = begin();
+  press(live, "pagedown pagedown");
+  EXPECT_EQ(live.status().step, "look");
+  EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("y or n"));
+  EXPECT_TRUE(live.press({.name = "pagedown", .isRepeat = true})) << "a pedal that is held";
+  press(live, "n");
+  EXPECT_EQ(live.status().step, "look");
+  EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("do this step again"));
+  press(live, "pageup");
+  EXPECT_EQ(live.status().step, "open");
+  EXPECT_TRUE(live.press({.name = "pagedown", .isRepeat = true}));
+  EXPECT_EQ(live.status().step, "open");
+  EXPECT_FALSE(live.press({.name = "l"})) << "a key of the painting";
+  EXPECT_FALSE(live.press({.name = "y"})) << "there is no question here";
+}
+
+TEST_F(LiveProcedureTest, ValuesAreTypedAndMended) {
+  LiveProcedure live = begin();
+  press(live, "pagedown y return");
+  EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("type a value in mm"));
+  press(live, "9 , 5 backspace");
+  EXPECT_THAT(live.text(), HasSubstr("Gap: 9._ (≤ 2 mm)"));
+  press(live, "return");
+  EXPECT_EQ(live.status().step, "gap") << "9 is too high";
+  EXPECT_FALSE(live.press({.name = "backspace"})) << "nothing is typed: the painting's key";
+}
+
+TEST_F(LiveProcedureTest, GoesOnWithTheRecordThatIsNotSignedOff) {
+  std::string record;
+  {
+    LiveProcedure live = begin();
+    press(live, "pagedown y");
+    record = live.status().record;
+  }
+  {
+    LiveProcedure live = begin();
+    EXPECT_EQ(live.status().record, record);
+    EXPECT_EQ(live.status().step, "gap");
+    EXPECT_TRUE(live.press({.name = "x", .shift = true}));
+  }
+  LiveProcedure live = begin();
+  EXPECT_NE(live.status().record, record) << "that one was signed off";
+  EXPECT_EQ(live.status().step, "open");
+}
+
+TEST_F(LiveProcedureTest, IsReadAgainWhenItIsSaved) {
+  LiveProcedure live = begin(false);
+  press(live, "pagedown");
+  const auto save = [&](const std::string& limit) {
+    writeSteps(limit);
+    fs::last_write_time(procedure() / "procedure.toml",
+                        fs::file_time_type::clock::now() + std::chrono::seconds(limit.size()));
+    clock_.advance(std::chrono::seconds(1));
+    live.poll();
+    return live.takeNotice().value_or("");
+  };
+  EXPECT_EQ(save("max = 3"), "the procedure was read again");
+  EXPECT_EQ(live.status().step, "look");
+  EXPECT_THAT(save("max = \"three\""), HasSubstr("procedure.toml:7: step[2].check.max: found"));
+  press(live, "y");
+  EXPECT_THAT(live.text(), HasSubstr("≤ 3 mm")) << "the last version without mistakes";
+}
+
+TEST_F(LiveProcedureTest, StillsOfStepsAreTakenBeforeAndAfterEach) {
+  LiveProcedure live({.folder = procedure(),
+                      .records = records(),
+                      .operatorName = "Jo",
+                      .program = "1",
+                      .stillsOfSteps = true},
+                     clock_);
+  EXPECT_TRUE(live.takeStillRequest());
+  press(live, "pagedown");  // before the first still has come
+  EXPECT_EQ(live.status().step, "open") << "until its picture is saved";
+  press(live, "pagedown");
+  EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("is awaited"));
+  live.putStill(picture());
+  EXPECT_TRUE(live.takeStillRequest());
+  live.putStill(picture());
+  EXPECT_EQ(live.status().step, "look");
+  const auto reading = record::checkRecordFile(live.status().record);
+  std::vector<std::string> lines;
+  for (const auto& entry : reading->entries) {
+    if (const auto* still = std::get_if<record::StillTaken>(&entry.event)) {
+      lines.push_back(still->when + " " + still->step);
+    }
+    if (const auto* done = std::get_if<record::StepDone>(&entry.event)) lines.push_back(done->step);
+  }
+  EXPECT_THAT(lines, testing::ElementsAre("before open", "after open", "open"));
+}
+
+TEST_F(LiveProcedureTest, ACameraThatGivesNoPictureKeepsTheStep) {
+  LiveProcedure live = begin();
+  press(live, "pagedown y 1 return pagedown");
+  EXPECT_TRUE(live.takeStillRequest());
+  clock_.advance(std::chrono::seconds(3));
+  live.poll();
+  EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("gives no picture"));
+  EXPECT_EQ(live.status().step, "shoot");
+  live.putStill(picture());  // late
+  EXPECT_EQ(live.status().step, "shoot");
+  press(live, "pagedown");
+  EXPECT_TRUE(live.takeStillRequest());
+  live.putStill(picture());
+  EXPECT_EQ(live.status().step, "end");
+}
+
+TEST_F(LiveProcedureTest, ADiskThatIsFullAtAStillKeepsTheStepUntilThereIsSpace) {
+  LiveProcedure live = begin();
+  press(live, "pagedown y 1 return pagedown");
+  const std::size_t lines = record::checkRecordFile(live.status().record)->entries.size();
+  {
+    const support::FileSizeLimit full(512);  // less than the picture needs
+    hal::Image noise({.pixelFormat = hal::PixelFormat::kRgb8, .size = {64, 64}});
+    for (std::size_t i = 0; i < noise.plane(0).size(); ++i) {
+      noise.plane(0)[i] = static_cast<std::uint8_t>(i * i / 7);
+    }
+    live.putStill(noise);
+    EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("too large"));
+    EXPECT_EQ(live.status().step, "shoot");
+  }
+  EXPECT_EQ(record::checkRecordFile(live.status().record)->entries.size(), lines);
+  press(live, "pagedown");
+  live.putStill(picture());
+  EXPECT_EQ(live.status().step, "end");
+  press(live, "return");
+  EXPECT_TRUE(record::checkRecordFile(live.status().record)->findings.empty());
+}
+
+TEST_F(LiveProcedureTest, OperatorsWhoTakeOverAreInTheRecord) {
+  {
+    LiveProcedure live = begin();
+    press(live, "pagedown");
+  }
+  LiveProcedure live(
+      {.folder = procedure(), .records = records(), .operatorName = "Kim", .program = "1"}, clock_);
+  clock_.advance(std::chrono::seconds(1));
+  EXPECT_TRUE(
+      live.obey({.kind = procedure::StepCommandKind::kOperator, .operatorName = "Li"}, "a card"));
+  press(live, "y");
+  EXPECT_TRUE(live.press({.name = "x", .shift = true}));
+  const auto reading = record::checkRecordFile(live.status().record);
+  std::vector<std::string> names;
+  for (const auto& entry : reading->entries) {
+    if (const auto* changed = std::get_if<record::OperatorChanged>(&entry.event)) {
+      names.push_back(changed->operatorName);
+    }
+  }
+  EXPECT_THAT(names, testing::ElementsAre("Kim", "Li"));
+}
+
+TEST_F(LiveProcedureTest, SaysWhatIsWrongAtTheStart) {
+  write(procedure() / "procedure.toml", "name = 3");
+  EXPECT_THROW(begin(), config::ConfigError);
+  SetUp();
+  EXPECT_THROW(LiveProcedure({.folder = procedure(), .language = "fr"}, clock_), hal::Failure);
+}
+
+}  // namespace
+}  // namespace pleinair::app

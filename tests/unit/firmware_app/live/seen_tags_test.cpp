@@ -1,0 +1,68 @@
+#include "firmware_app/live/seen_tags.h"
+
+#include <gmock/gmock.h>
+
+namespace pleinair::app {
+namespace {
+
+scene::SceneModel model(const std::string& file, std::optional<int> tag, bool isOccluder = false) {
+  scene::SceneModel model{.name = file, .source = scene::FileSource{file}, .tagId = tag};
+  model.isOccluder = isOccluder;
+  return model;
+}
+
+procedure::Procedure procedureOf(const std::string& file) {
+  procedure::Procedure procedure;
+  procedure.source = scene::FileSource{file};
+  return procedure;
+}
+
+TEST(MachinePlace, OfTwoTagWorldsIsTheOneOfTheProceduresModel) {
+  scene::Scene scene;
+  scene.models = {model("board.glb", 7), model("machine.glb", 3), model("bench.glb", 1, true)};
+  EXPECT_EQ(machinePlaceOf(scene, procedureOf("machine.glb")).tagId, 3);
+  EXPECT_EQ(machinePlaceOf(scene, procedureOf("board.glb")).tagId, 7);
+  EXPECT_FALSE(machinePlaceOf(scene, procedureOf("other.glb")).isKnown) << "two could be it";
+  scene.models.erase(scene.models.begin());
+  EXPECT_EQ(machinePlaceOf(scene, procedureOf("other.glb")).tagId, 3) << "the only one drawn";
+  EXPECT_FALSE(machinePlaceOf({}, procedureOf("other.glb")).isKnown);
+}
+
+class PoseQualityTest : public testing::Test {
+ protected:
+  static tracking::TrackedTag tag(int id, double sigmaMetres, bool isCarried = false) {
+    tracking::TrackedTag tag{.id = id, .cameraFromTag = glm::dmat4(1.0)};
+    tag.corners = {{{10, 60}, {60, 60}, {60, 10}, {10, 10}}};
+    tag.covariance[35] = sigmaMetres * sigmaMetres;
+    if (isCarried) tag.source = tracking::PoseSource::kCarried;
+    return tag;
+  }
+};
+
+TEST_F(PoseQualityTest, IsOfTheMachinesTagAndNotOfTheBoards) {
+  const std::vector<tracking::TrackedTag> tags{tag(3, 0.0008), tag(7, 0.05, true)};
+  const SeenTags seen = seenTagsOf({.tags = tags}, {640, 480}, {});
+  const auto machine = poseQualityOf({.isKnown = true, .tagId = 3}, seen);
+  EXPECT_EQ(machine->source, "seen");
+  EXPECT_NEAR(*machine->sigmaMillimetres, 0.8, 1e-9);
+  EXPECT_FALSE(machine->rmsPx);
+  EXPECT_EQ(poseQualityOf({.isKnown = true, .tagId = 7}, seen)->source, "carried");
+  EXPECT_EQ(poseQualityOf({.isKnown = true, .tagId = 9}, seen)->source, "none");
+  EXPECT_EQ(poseQualityOf({.isKnown = true}, seen)->source, "none") << "no world is seen";
+  EXPECT_FALSE(poseQualityOf({}, seen));
+  ASSERT_EQ(seen.tags().size(), 1U) << "a carried tag is not shown";
+  EXPECT_NEAR(seen.tags()[0].edgeShare, 50.0 / 480, 1e-9);
+}
+
+TEST_F(PoseQualityTest, OfTheWorldHasItsError) {
+  tracking::TrackingResult tracking;
+  tracking.cameraFromWorld = glm::dmat4(1.0);
+  tracking.worldRmsPx = 0.3;
+  tracking.worldTranslationSigmaMetres = 0.002;
+  const auto quality = poseQualityOf({.isKnown = true}, seenTagsOf(tracking, {640, 480}, {}));
+  EXPECT_EQ(quality->rmsPx, 0.3);
+  EXPECT_NEAR(*quality->sigmaMillimetres, 2.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace pleinair::app

@@ -1,0 +1,94 @@
+// Views, composites and tiles of steps, on the processor.
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+
+#include "firmware_app/procedure/step_composite.h"
+#include "firmware_app/procedure/step_tile.h"
+#include "firmware_app/procedure/step_view.h"
+#include "pipeline/scene/builtin/builtin_gearbox.h"
+#include "tests/unit/procedure/procedure_texts.h"
+
+namespace pleinair::app {
+namespace {
+
+glm::dvec3 seen(const glm::dmat4& cameraFromWorld, const glm::dvec3& point) {
+  return glm::dvec3(cameraFromWorld * glm::dvec4(point, 1.0));
+}
+
+TEST(StepView, LooksAtThePartFromItsSideWithTheMachineUpright) {
+  const scene::BoundingSphere whole{.centre = {0.0, 0.0, 0.1}, .radiusMetres = 0.2};
+  const scene::BoundingSphere part{.centre = {0.05, -0.1, 0.05}, .radiusMetres = 0.01};
+  for (const ViewAngles& view : candidateViews()) {
+    const glm::dmat4 camera = cameraFromModel(view, part, whole);
+    const glm::dvec3 at = seen(camera, part.centre);
+    const double halfWidth = at.z * std::tan(0.5 * kStepViewDeg * 3.14159265 / 180.0);
+    EXPECT_GT(at.z, part.radiusMetres);
+    EXPECT_LT(std::hypot(at.x, at.y), 0.6 * halfWidth) << "near the middle";
+    const glm::dvec3 above = seen(camera, part.centre + glm::dvec3(0.0, 0.0, 0.01));
+    EXPECT_LT(above.y, at.y) << "y goes down in the image";
+    EXPECT_NEAR(above.x, at.x, 1e-9);
+  }
+  const glm::dmat4 front = cameraFromModel({.azimuthDeg = 0.0, .elevationDeg = 0.0}, part, whole);
+  EXPECT_GT(seen(front, {0.1, 0.0, 0.0}).x, seen(front, {0.0, 0.0, 0.0}).x);
+  EXPECT_LT(seen(front, {0.0, -0.1, 0.0}).z, seen(front, {0.0, 0.0, 0.0}).z);
+}
+
+TEST(StepView, KeepsTheChosenParts) {
+  const scene::Model gearbox = scene::gearboxModel({});
+  const scene::Model chosen = withParts(gearbox, std::array<std::size_t, 2>{1, 3});
+  ASSERT_EQ(chosen.parts.size(), 2U);
+  EXPECT_EQ(chosen.parts[0].name, gearbox.parts[1].name);
+  EXPECT_EQ(chosen.parts[1].firstTriangle, chosen.parts[0].triangleCount);
+  EXPECT_EQ(chosen.parts[0].radiansPerSecond, 0.0) << "a still picture";
+}
+
+/// The middle of a picture that is 64 px of one kind in a frame of ground.
+std::array<int, 3> middleOf(StepPixel pixel) {
+  constexpr int kSide = 96;
+  hal::Image shaded({.pixelFormat = hal::PixelFormat::kRgb8, .size = {kSide, kSide}});
+  std::ranges::fill(shaded.plane(0), std::uint8_t{100});
+  std::vector<StepPixel> pixels(kSide * kSide, StepPixel::kGround);
+  for (int y = 16; y < 80; ++y) {
+    for (int x = 16; x < 80; ++x) pixels[static_cast<std::size_t>(y * kSide + x)] = pixel;
+  }
+  const hal::Image image = stepComposite(shaded, pixels);
+  EXPECT_EQ(image.size(), (hal::FrameSize{48, 48}));
+  const auto row = image.view().row(0, 24);
+  return {row[72], row[73], row[74]};
+}
+
+TEST(StepComposite, TellsPartsFromTheirSurroundings) {
+  EXPECT_EQ(middleOf(StepPixel::kGround), (std::array{100, 100, 100})) << "as it is";
+  const auto context = middleOf(StepPixel::kContext);
+  EXPECT_GT(context[0], 150) << "pale";
+  EXPECT_EQ(context[0], context[2]) << "and grey";
+  const auto focus = middleOf(StepPixel::kFocus);
+  EXPECT_GT(focus[0], focus[2] + 120) << "in the reserved colour";
+  const auto hidden = middleOf(StepPixel::kFocusHidden);
+  EXPECT_GT(hidden[0], hidden[2] + 20);
+  EXPECT_NE(hidden, focus);
+}
+
+TEST(StepTile, IsAsHighAsItsText) {
+  const auto reading = procedure::readSteps(
+      "[[step]]\nid = \"a\"\n[[step]]\nid = \"b\"\ncheck = \"yes_no\"\ntorque = \"5 Nm\"\n",
+      {"a", "b"}, "? Is everything as it was before, and is nothing left over?");
+  const procedure::Procedure& procedure = reading.procedure;
+  const int plain = stepTextRows(procedure, 0, "en", 480);
+  const int full = stepTextRows(procedure, 1, "en", 480);
+  EXPECT_GT(plain, 20);
+  EXPECT_GT(full, plain + 40);
+  EXPECT_GT(stepTextRows(procedure, 1, "en", 200), full) << "wrapped";
+  hal::Image picture({.pixelFormat = hal::PixelFormat::kRgb8, .size = {480, 20}});
+  const hal::Image tile = stepTile(procedure, 1, "en", picture, full);
+  EXPECT_EQ(tile.size(), (hal::FrameSize{480, 20 + full}));
+  int inked = 0;
+  for (const std::uint8_t byte : tile.view().row(0, 20 + full / 2)) inked += byte < 128 ? 1 : 0;
+  for (const std::uint8_t byte : tile.view().row(0, 36)) inked += byte < 128 ? 1 : 0;
+  EXPECT_GT(inked, 0);
+}
+
+}  // namespace
+}  // namespace pleinair::app

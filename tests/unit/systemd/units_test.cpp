@@ -1,0 +1,147 @@
+// The shipped units, judged by systemd itself: they are well-formed, and expose little.
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include "tests/support/temporary_folder.h"
+
+namespace pleinair {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const fs::path kUnits = PLEINAIR_UNITS;
+const fs::path kDropIns = PLEINAIR_DROP_INS;
+
+struct Answer {
+  int status = 0;
+  std::string text;
+};
+
+Answer ask(const std::string& command) {
+  FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
+  Answer answer;
+  std::array<char, 4096> part{};
+  for (std::size_t size = 0; (size = fread(part.data(), 1, part.size(), pipe)) > 0;) {
+    answer.text.append(part.data(), size);
+  }
+  answer.status = WEXITSTATUS(pclose(pipe));
+  return answer;
+}
+
+std::string textOf(const fs::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+class Units : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (ask("systemd-analyze --version").status != 0) {
+      GTEST_SKIP() << "there is no systemd-analyze (package systemd)";
+    }
+    for (const auto& each : fs::directory_iterator(kUnits)) {
+      fs::copy_file(each.path(), folder_.path() / each.path().filename());
+    }
+  }
+
+  /// A template is judged as an instance of it.
+  static std::string instanceOf(std::string name) {
+    const std::size_t at = name.find("@.");
+    return at == std::string::npos ? name : name.insert(at + 1, "pleinair-kiosk");
+  }
+  Answer analyze(const std::string& verb, const std::string& unit) const {
+    const std::string folder = folder_.path().string();
+    return ask("SYSTEMD_UNIT_PATH=" + folder + ": systemd-analyze --no-pager --man=no " + verb +
+               " '" + folder + "/" + instanceOf(unit) + "'");
+  }
+  double exposureOf(const std::string& unit) const {
+    const Answer answer = analyze("security --offline=true", unit);
+    static const std::regex kLevel(R"(exposure level for [^:]*: ([\d.]+))");
+    std::smatch match;
+    if (!std::regex_search(answer.text, match, kLevel)) {
+      ADD_FAILURE() << unit << ": " << answer.text;
+      return 10;
+    }
+    return std::stod(match[1]);
+  }
+  void addDropIn(const std::string& service, const std::string& name) const {
+    const fs::path place = folder_.path() / (service + ".d");
+    fs::create_directories(place);
+    fs::copy_file(kDropIns / name, place / name);
+  }
+  std::vector<std::string> services() const {
+    std::vector<std::string> names;
+    for (const auto& each : fs::directory_iterator(folder_.path())) {
+      if (each.path().extension() == ".service") names.push_back(each.path().filename());
+    }
+    return names;
+  }
+
+  support::TemporaryFolder folder_;
+};
+
+TEST_F(Units, AreWellFormed) {
+  int count = 0;
+  for (const auto& each : fs::directory_iterator(kUnits)) {
+    const Answer answer = analyze("verify", each.path().filename());
+    EXPECT_EQ(answer.status, 0) << answer.text;
+    EXPECT_EQ(answer.text, "") << each.path();
+    ++count;
+  }
+  EXPECT_GE(count, 5);
+}
+
+TEST_F(Units, AreRefusedWhereTheyAreNot) {
+  const fs::path kiosk = folder_.path() / "pleinair-kiosk.service";
+  std::ofstream(kiosk, std::ios::app) << "\n[Service]\nExecStartPre=/nowhere/program\nTypo=yes\n";
+  const Answer answer = analyze("verify", "pleinair-kiosk.service");
+  EXPECT_NE(answer.status, 0);
+  EXPECT_THAT(answer.text, HasSubstr("/nowhere/program"));
+  EXPECT_THAT(answer.text, HasSubstr("Typo"));
+}
+
+TEST_F(Units, ExposeLittle) {
+  for (const std::string& each : services()) {
+    const bool opensDevices =
+        textOf(folder_.path() / each).find("\nDeviceAllow=") != std::string::npos;
+    EXPECT_LE(exposureOf(each), opensDevices ? 1.0 : 0.5) << each;
+  }
+  EXPECT_GE(services().size(), 3u);
+}
+
+TEST_F(Units, AreJudgedByWhatTheySay) {
+  const fs::path kiosk = folder_.path() / "pleinair-kiosk.service";
+  std::ofstream(kiosk, std::ios::app) << "\n[Service]\nPrivateNetwork=no\nSystemCallFilter=\n";
+  EXPECT_GT(exposureOf("pleinair-kiosk.service"), 1.0) << "a control";
+}
+
+TEST_F(Units, StayCloseWithTheDropInForSoftwareGl) {
+  for (const std::string service : {"pleinair-kiosk.service", "pleinair-repair-station.service"}) {
+    addDropIn(service, "software-gl.conf");
+    EXPECT_LE(exposureOf(service), 1.0) << service;
+    EXPECT_EQ(analyze("verify", service).text, "") << service;
+  }
+}
+
+TEST_F(Units, HaveAScoreOfTheirOwnWithTheDropInForGigECameras) {
+  addDropIn("pleinair-kiosk.service", "gige-camera.conf");
+  const double exposure = exposureOf("pleinair-kiosk.service");
+  EXPECT_LE(exposure, 1.6);
+  EXPECT_GT(exposure, 1.0) << "it is applied";
+  EXPECT_EQ(analyze("verify", "pleinair-kiosk.service").text, "");
+}
+
+}  // namespace
+}  // namespace pleinair
