@@ -133,8 +133,8 @@ std::optional<ParameterValue> parsedAs(const ParameterDescriptor& descriptor,
     case ParameterKind::kInteger:
       return wholeTextAs<int>(text);
     case ParameterKind::kSwitch:
-      if (text == "true") return true;
-      if (text == "false") return false;
+      if (text == "true" || text == "on") return true;
+      if (text == "false" || text == "off") return false;
       return std::nullopt;
     case ParameterKind::kChoice: {
       const auto& choices = descriptor.choices;

@@ -163,6 +163,10 @@ int TomlTable::integer(std::string_view key, const IntegerRange& range) const {
 std::optional<bool> TomlTable::optionalBoolean(std::string_view key) const {
   const toml::node* node = state_->ask(key);
   if (!node) return std::nullopt;
+  if (const auto* word = node->as_string()) {
+    if (word->get() == "on") return true;
+    if (word->get() == "off") return false;
+  }
   const auto* value = node->as_boolean();
   if (!value) throw state_->wrong(pathOf(key), *node, true, "true or false");
   return value->get();

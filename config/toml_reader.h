@@ -51,6 +51,7 @@ class TomlTable {
   int integer(std::string_view key, const IntegerRange& range = {}) const;
   std::optional<int> optionalInteger(std::string_view key, const IntegerRange& range = {}) const;
 
+  /// The words "on" and "off" are taken, too.
   bool boolean(std::string_view key) const;
   std::optional<bool> optionalBoolean(std::string_view key) const;
 

@@ -23,6 +23,7 @@
 
 #include "config/suggestion.h"
 #include "firmware_app/cli/exit_status.h"
+#include "firmware_app/cli/memory_limit.h"
 #include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/config/renamed.h"
 #include "firmware_app/service_manager/journal_stream.h"
@@ -178,6 +179,7 @@ int parseAndRun(int argc, const char* const* argv) {
 
 int runCommandLine(int argc, const char* const* argv) {
   prepareStandardStreams();
+  explainCrashesUnderAMemoryLimit();
   logToStandardError();
   const int status = withOutputFlushed(parseAndRun(argc, argv));
   gpu::terminateDisplays();

@@ -33,6 +33,8 @@ struct CameraKind {
   std::string_view name;  ///< "v4l2": in camera.source; its table is [camera.v4l2]
   std::string_view help;  ///< description, one line without a full stop
   CameraNaming naming = CameraNaming::kDevices;
+  /// How the paths of its device nodes begin, which then are names, too: "/dev/video". Empty: none.
+  std::string_view nodePrefix = {};
   /// The keys of its own table at their defaults; an empty list if it has none.
   config::ParameterValues defaults;
   /// Makes a back end. `own`: values of the same list as `defaults`.

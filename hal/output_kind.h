@@ -30,11 +30,13 @@ struct OutputTraits {
   bool isOnConsole = false;
 };
 
-/// A setting that outputs of a kind have: a key of [output.KIND]. One of some words, or a text.
+/// A setting that outputs of a kind have: a key of [output.KIND]. A switch, one of some words, or a
+/// text.
 struct OutputOption {
   std::string name;
   std::string help;
-  std::vector<std::string> choices;  ///< the first is the default; empty: it is a text
+  bool isSwitch = false;             ///< "false", the default, or "true"
+  std::vector<std::string> choices;  ///< the first is the default; empty: a switch or a text
   // The members below describe a text.
   std::string initial;                        ///< the default
   std::string allowed;                        ///< for messages: "auto, or 1920x1080"

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "config/config_error.h"
+#include "firmware_app/cli/memory_limit.h"
 #include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/service_manager/journal_stream.h"
 #include "hal/error.h"
@@ -60,7 +61,8 @@ ExitStatus reportCurrentException() {
     printError(error.what());
     return ExitStatus::kUsage;
   } catch (const std::bad_alloc&) {
-    printError("out of memory");
+    const std::string limit = memoryLimitText();
+    printError(limit.empty() ? "out of memory" : "out of memory: " + limit);
   } catch (const std::exception& error) {
     printError(fmt::format("internal error: {}", error.what()));
   }

@@ -137,6 +137,8 @@ int warmUpShaders(const WarmUpOptions& options) {
       try {
         for (int pass = 0; pass < kPasses; ++pass) {
           warmUp(*kind, film.scene, film);
+          // Without models, passes are left out and others read what is not there.
+          warmUp(*kind, {}, film);
           if (!models.models.empty()) warmUp(*kind, models, film);
           gpu::terminateDisplays();
         }

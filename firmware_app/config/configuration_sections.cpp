@@ -154,7 +154,9 @@ std::string sectionOf(const hal::OutputKind& kind) {
 
 config::ParameterDescriptor descriptorOf(const hal::OutputOption& option) {
   config::ParameterDescriptor descriptor{.name = option.name, .help = option.help};
-  if (option.choices.empty()) {
+  if (option.isSwitch) {
+    descriptor.defaultValue = false;
+  } else if (option.choices.empty()) {
     descriptor.defaultValue = option.initial;
     descriptor.textAllowed = option.allowed;
     descriptor.takesText = option.takes;
@@ -307,6 +309,14 @@ bool isCameraName(std::string_view source) {
   return !cameraTable().defaults().list().descriptors()[0].isPath(source);
 }
 
+std::string namedCamera(const std::string& source) {
+  for (const hal::CameraKind* kind : hal::cameraKinds()) {
+    if (kind->nodePrefix.empty() || !source.starts_with(kind->nodePrefix)) continue;
+    return fmt::format("{}:{}", kind->name, source);
+  }
+  return source;
+}
+
 config::Sections defaultSections() {
   std::vector<config::Section> sections{
       {"", "", profileTable().defaults()},
@@ -338,6 +348,7 @@ std::filesystem::path profileOf(const config::Sections& sections) {
 
 CameraSettings cameraOf(const config::Sections& sections) {
   CameraSettings settings = cameraTable().typed(sections.values("camera"));
+  settings.source = namedCamera(settings.source.string());
   for (const hal::CameraKind* kind : hal::cameraKinds()) {
     settings.tables.emplace(kind->name, sections.values(cameraSection(*kind)));
   }

@@ -22,6 +22,8 @@ inline constexpr std::string_view kViewKey = "painting.view";
 std::vector<std::string> cameraNames();
 /// The names that go on after a colon: "serial:NUMBER".
 std::vector<std::string> openCameraNames();
+/// "v4l2:/dev/video0" for "/dev/video0", whether it is there or not; others as they are.
+std::string namedCamera(const std::string& source);
 /// Whether camera.source is one of either; else it is a recording's path.
 bool isCameraName(std::string_view source);
 

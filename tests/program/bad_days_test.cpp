@@ -175,6 +175,12 @@ TEST_F(BadDay, StrangeEnvironments) {
   }
 }
 
+TEST_F(BadDay, FewFileDescriptors) {
+  ProgramLimits limits;
+  limits.fileDescriptors = 12;
+  expectPainting({"--input", path("in.y4m"), "--style", "none"}, limits);
+}
+
 TEST_F(BadDay, NumbersAreReadTheSameInEveryLocale) {
   ProgramLimits limits;
   limits.environment = {"LC_ALL=de_DE.UTF-8"};

@@ -8,6 +8,7 @@
 #include <thread>
 #include <tuple>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -266,6 +267,20 @@ TEST_F(Everyday, TooLittleAddressSpaceIsNotBlamedOnTheDriver) {
   EXPECT_EQ(run.status, 1);
   EXPECT_THAT(run.error, HasSubstr("this process may use 292 MiB of address space (ulimit -v)"));
   EXPECT_THAT(run.error, testing::Not(HasSubstr("install Mesa")));
+}
+
+TEST_F(Everyday, ACrashUnderAMemoryLimitNamesTheLimit) {
+  if (isSanitized()) GTEST_SKIP() << "a sanitizer takes address space of its own";
+  writeMedia(path("in.png"), 1);
+  for (const unsigned long mebibytes : {450UL, 650UL, 750UL}) {
+    ProgramLimits limits;
+    limits.addressSpaceBytes = mebibytes << 20U;
+    const ProgramRun run =
+        runProgram({"render", "--input", path("in.png"), "--output", path("out.png")}, limits);
+    if (run.status == 0) continue;
+    EXPECT_THAT(run.error, HasSubstr(fmt::format("{} MiB of address space (ulimit -v)", mebibytes)))
+        << run.status;
+  }
 }
 
 TEST_F(Everyday, SaysThatShadersAreCompiled) {

@@ -112,6 +112,10 @@ void enterRemovedFolder() {
     const rlimit limit{limits.addressSpaceBytes, limits.addressSpaceBytes};
     setrlimit(RLIMIT_AS, &limit);
   }
+  if (limits.fileDescriptors > 0) {
+    const rlimit limit{limits.fileDescriptors, limits.fileDescriptors};
+    setrlimit(RLIMIT_NOFILE, &limit);
+  }
   std::vector<char*> argv;
   std::string program = PLEINAIR_PROGRAM;
   argv.push_back(program.data());

@@ -34,6 +34,8 @@ struct ProgramLimits {
   unsigned long fileBytes = 0;
   /// No more memory is given to it than so much address space; 0, or with a sanitizer: no limit.
   unsigned long addressSpaceBytes = 0;
+  /// How many file descriptors it may have; 0: no limit.
+  unsigned long fileDescriptors = 0;
   /// It is killed, and the test fails, after so long.
   std::chrono::seconds time{120};
   /// SIGTERM is sent once this file exists; empty: never.

@@ -295,6 +295,7 @@ TEST_F(RunInWindow, SavesWhatIsTunedAndSaysHowToRepeatIt) {
   EXPECT_EQ(live.status, 0) << live.error;
   EXPECT_THAT(live.error, HasSubstr("pleinair run --camera " + path("in.y4m") + " --snapshots " +
                                     path("saved") + " --style watercolor --look glazed --set "));
+  ASSERT_FALSE(std::filesystem::is_empty(path("saved"))) << live.error;
   const std::filesystem::path look = *std::filesystem::directory_iterator(path("saved"));
   EXPECT_EQ(look.extension(), ".toml");
   const ProgramRun config = runProgram({"config", "--look", look.string()});
@@ -377,7 +378,7 @@ TEST_F(RunInWindow, StandsInAPublicPlace) {
   hal::orThrow(hal::writePng(path("in.png"), picture.view()));
   bool isFilled = false;
   const ProgramRun live = runShown(
-      {"--camera", path("in.png"), "--style", "none", "--set", "output.window.full_screen=on",
+      {"--camera", path("in.png"), "--style", "none", "--set", "output.window.full_screen=true",
        "--set", "output.window.rotation=90", "--set", "output.window.keys=locked"},
       [&](pid_t program) {
         waitForTitle("none.*");

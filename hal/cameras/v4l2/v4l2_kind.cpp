@@ -38,6 +38,7 @@ const CameraKind& cameraKind() {
       .name = "v4l2",
       .help = "webcams, capture cards and sensor boards of Linux",
       .naming = CameraNaming::kDevices,
+      .nodePrefix = "/dev/video",
       .defaults = v4l2Table().defaults(),
       .open = [](const config::ParameterValues& own,
                  const CameraBackendOptions&) -> std::unique_ptr<CameraBackend> {

@@ -21,13 +21,13 @@ std::string valueOf(const OutputOptions& options, std::string_view name) {
 
 WindowSettings settingsOf(const OutputOptions& options) {
   WindowSettings settings;
-  settings.isFullScreen = valueOf(options, "full_screen") == "on";
+  settings.isFullScreen = valueOf(options, "full_screen") == "true";
   if (const std::string display = valueOf(options, "display"); !display.empty()) {
     settings.display = display;
   }
   const std::string rotation = valueOf(options, "rotation");
   settings.quarterTurns = rotation == "90" ? 1 : rotation == "180" ? 2 : rotation == "270" ? 3 : 0;
-  settings.isMirrored = valueOf(options, "mirror") == "on";
+  settings.isMirrored = valueOf(options, "mirror") == "true";
   settings.takesKeys = valueOf(options, "keys") != "locked";
   settings.hidesCursor = valueOf(options, "cursor") == "hidden";
   return settings;
@@ -46,7 +46,7 @@ OutputKind windowKind() {
           .traits = {.isPaced = true, .isOnMainThread = true, .showsWaiting = true},
           .options = {{.name = "full_screen",
                        .help = "Whether it fills the screen from the start.",
-                       .choices = {"off", "on"}},
+                       .isSwitch = true},
                       {.name = "display",
                        .help = "The display that it opens on.",
                        .initial = "auto",
@@ -57,7 +57,7 @@ OutputKind windowKind() {
                        .choices = {"0", "90", "180", "270"}},
                       {.name = "mirror",
                        .help = "Whether left and right are exchanged, as in a mirror.",
-                       .choices = {"off", "on"}},
+                       .isSwitch = true},
                       {.name = "keys",
                        .help = "Whether its keys work, and it can be closed; \"locked\": neither, "
                                "and the desktop's own keys are kept from it.",

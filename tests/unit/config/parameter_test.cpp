@@ -70,6 +70,12 @@ TEST(Parameter, AChangeIsANewSnapshot) {
   EXPECT_EQ(after.origin("drying"), "default");
 }
 
+TEST(Parameter, SwitchesTakeOnAndOff) {
+  const ParameterValues values = table().defaults();
+  EXPECT_EQ(values.with("paper", "off", "--set").text("paper"), "false");
+  EXPECT_EQ(values.with("paper", "on", "--set").text("paper"), "true");
+}
+
 TEST(Parameter, SaysWhatTextIsAllowed) {
   const ParameterValues values = table().defaults();
   const auto refusal = [&](const char* name, const char* text) {

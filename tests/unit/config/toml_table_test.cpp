@@ -70,6 +70,14 @@ TEST(TomlTable, GivesNothingForAnAbsentOptional) {
   EXPECT_TRUE(root.tables("x").empty());
 }
 
+TEST(TomlTable, TakesOnAndOffForSwitches) {
+  const TomlTable root = parsed("a = \"on\"\nb = \"off\"\nc = \"yes\"\n");
+  EXPECT_TRUE(root.boolean("a"));
+  EXPECT_FALSE(root.boolean("b"));
+  EXPECT_EQ(thrownBy([&] { root.boolean("c"); }),
+            "scene.toml:3: c: found \"yes\" (string), allowed: true or false");
+}
+
 TEST(TomlTable, SaysWhatIsMissing) {
   const TomlTable root = parsed(kScene);
   EXPECT_EQ(thrownBy([&] { root.tables("tag")[1].string("name"); }),

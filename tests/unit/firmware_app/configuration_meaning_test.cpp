@@ -48,6 +48,13 @@ TEST_F(ConfigurationTest, LeavesAMistakeWithinAFileToItsLine) {
   }
 }
 
+TEST_F(ConfigurationTest, TakesADeviceNodeForItsCamera) {
+  request_.options = {{"camera.source", "/dev/video9", "--camera"}};
+  const CameraSettings camera = resolved().camera();
+  EXPECT_EQ(camera.source, "v4l2:/dev/video9");
+  EXPECT_FALSE(isRecording(camera)) << "it is waited for";
+}
+
 TEST_F(ConfigurationTest, AttributesThePlaceOfWhatADeviceRefuses) {
   request_.environment = {{"PLEINAIR_CAMERA_SOURCE", "/gone.mp4"}};
   const Configuration configuration = resolved();
