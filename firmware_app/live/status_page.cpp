@@ -5,36 +5,15 @@
 #include <fmt/format.h>
 
 #include "hal/clock.h"
+#include "hal/html_text.h"
 
 namespace pleinair::app {
 namespace {
 
-/// Names of devices and files may hold any characters.
-std::string escaped(std::string_view text) {
-  std::string html;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      default:
-        html += c;
-    }
-  }
-  return html;
-}
+using hal::htmlText;
 
 std::string row(std::string_view name, std::string_view value) {
-  return fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", escaped(name), escaped(value));
+  return fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", htmlText(name), htmlText(value));
 }
 
 std::string cameraText(const runtime::CaptureStage::Status& camera) {

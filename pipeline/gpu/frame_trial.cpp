@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdio>
 #include <string_view>
 
@@ -67,14 +66,9 @@ struct TriedFrame {
 };
 
 std::optional<TriedFrame> frameOf(int argc, const char* const* argv) {
-  std::vector<std::uint64_t> numbers;
-  for (int i = 2; i < argc; ++i) {
-    const std::string_view text(argv[i]);
-    std::uint64_t number = 0;
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
-    numbers.push_back(number);
-  }
+  const auto given = TrialProcess::numbersOf(argc, argv);
+  if (!given) return std::nullopt;
+  const std::vector<std::uint64_t>& numbers = *given;
   constexpr auto kLastFormat = static_cast<std::uint64_t>(hal::PixelFormat::kBayerBggr8);
   if (numbers.size() < kFixed || numbers[0] > kLastFormat || numbers[3] > 1 || numbers[4] > 1) {
     return std::nullopt;

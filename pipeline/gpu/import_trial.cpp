@@ -1,6 +1,5 @@
 #include "pipeline/gpu/import_trial.h"
 
-#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <string_view>
@@ -41,14 +40,9 @@ std::vector<std::string> argumentsOf(const hal::GpuSurface& of) {
 
 /// The surface of argumentsOf(), with the descriptors that a trial passes on.
 std::optional<hal::GpuSurface> surfaceOf(int argc, const char* const* argv) {
-  std::vector<std::uint64_t> numbers;
-  for (int i = 2; i < argc; ++i) {
-    const std::string_view text(argv[i]);
-    std::uint64_t number = 0;
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
-    numbers.push_back(number);
-  }
+  const auto given = TrialProcess::numbersOf(argc, argv);
+  if (!given) return std::nullopt;
+  const std::vector<std::uint64_t>& numbers = *given;
   if (numbers.size() < kFixed || numbers[5] < 1 || numbers[5] > 4 ||
       numbers.size() != kFixed + numbers[5] * kPerPlane) {
     return std::nullopt;

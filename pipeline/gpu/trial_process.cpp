@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
+#include <string_view>
 #include <utility>
 
 #include <fcntl.h>
@@ -25,6 +27,19 @@ hal::Error failed(std::string problem) {
 }
 
 }  // namespace
+
+std::optional<std::vector<std::uint64_t>> TrialProcess::numbersOf(int argc,
+                                                                  const char* const* argv) {
+  std::vector<std::uint64_t> numbers;
+  for (int i = 2; i < argc; ++i) {
+    const std::string_view text(argv[i]);
+    std::uint64_t number = 0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
+    numbers.push_back(number);
+  }
+  return numbers;
+}
 
 TrialProcess::TrialProcess(std::vector<std::string> arguments, std::span<const int> descriptors,
                            std::string task, const hal::Clock& clock)

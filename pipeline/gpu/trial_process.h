@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +17,9 @@ class TrialProcess {
  public:
   /// The number of the first descriptor in the child; the others follow.
   static constexpr int kFirstDescriptor = 3;
+
+  /// In the child: its arguments after the first two, where all of them are numbers.
+  static std::optional<std::vector<std::uint64_t>> numbersOf(int argc, const char* const* argv);
 
   /// Starts it. The child has copies of the descriptors. `task`: what it tries, for errors: "draw
   /// into the display's memory".

@@ -5,35 +5,14 @@
 
 #include <fmt/format.h>
 
+#include "hal/html_text.h"
 #include "hal/overloaded.h"
 #include "pipeline/procedure/words.h"
 
 namespace pleinair::record {
 namespace {
 
-/// For text and for values of attributes in double quotes.
-std::string escaped(std::string_view text) {
-  std::string html;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      default:
-        html += c;
-    }
-  }
-  return html;
-}
+using hal::htmlText;
 
 /// For a path in a link: what could end it or be taken for a scheme is coded.
 std::string linkTo(std::string_view path) {
@@ -54,7 +33,7 @@ std::string durationText(std::chrono::milliseconds time) {
 
 /// "seen, ± 0.8 mm, 0.31 px"
 std::string poseText(const PoseQuality& pose) {
-  std::string text = pose.source == "none" ? "not located" : escaped(pose.source);
+  std::string text = pose.source == "none" ? "not located" : htmlText(pose.source);
   if (pose.sigmaMillimetres) text += fmt::format(", ± {:.1f} mm", *pose.sigmaMillimetres);
   if (pose.rmsPx) text += fmt::format(", {:.2f} px", *pose.rmsPx);
   return text;
@@ -91,11 +70,11 @@ class Report {
       for (const RecordEntry& entry : reading_.entries) add(entry);
       addFigures();
     }
-    const std::string title = begun_ != nullptr ? escaped(begun_->procedure) : "Record";
+    const std::string title = begun_ != nullptr ? htmlText(begun_->procedure) : "Record";
     return fmt::format(
         "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n<title>{}</title>\n"
         "<style>{}</style>\n</head>\n<body>\n<h1>{}</h1>\n{}{}{}</body>\n</html>\n",
-        begun_ != nullptr ? escaped(begun_->language) : "en", title, kStyle, titleText(),
+        begun_ != nullptr ? htmlText(begun_->language) : "en", title, kStyle, titleText(),
         headText(), verdictText(), stepsText());
   }
 
@@ -103,14 +82,14 @@ class Report {
   std::string titleText() const {
     if (begun_ == nullptr) return "Record";
     if (procedure_ != nullptr) {
-      return escaped(translated(*procedure_, procedure_->title, begun_->language));
+      return htmlText(translated(*procedure_, procedure_->title, begun_->language));
     }
-    return escaped(begun_->procedure);
+    return htmlText(begun_->procedure);
   }
 
   static std::string row(std::string_view key, const std::string& value) {
     return value.empty() ? ""
-                         : fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", key, escaped(value));
+                         : fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", key, htmlText(value));
   }
 
   std::string headText() const {
@@ -127,7 +106,7 @@ class Report {
                                   (last.moment.isClockTrusted ? "" : " (clock not synchronised)"));
     text += row("Program", begun_->program);
     text += fmt::format("<tr><th>Procedure, SHA-256</th><td class=\"hash\">{}</td></tr>\n",
-                        escaped(begun_->hash));
+                        htmlText(begun_->hash));
     text += fmt::format("<tr><th>Final hash</th><td class=\"hash\">{}</td></tr>\n</table>\n",
                         reading_.finalHash());
     return text;
@@ -139,15 +118,15 @@ class Report {
       std::string text = fmt::format(
           "<p class=\"good\">Signed off as {} by {}. All {} lines and their stills are unchanged.",
           signedOff.result == SignOff::kCompleted ? "completed" : "<b>aborted</b>",
-          escaped(signedOff.operatorName), reading_.entries.size());
-      if (!signedOff.remark.empty()) text += " Remark: " + escaped(signedOff.remark);
+          htmlText(signedOff.operatorName), reading_.entries.size());
+      if (!signedOff.remark.empty()) text += " Remark: " + htmlText(signedOff.remark);
       return text + "</p>\n" + notesText();
     }
     std::string text;
     for (const RecordFinding& finding : reading_.findings) {
       text += fmt::format("<p class=\"bad\">{}{}</p>\n",
                           finding.line > 0 ? fmt::format("Line {} ", finding.line) : "The record ",
-                          escaped(finding.problem));
+                          htmlText(finding.problem));
     }
     return text + notesText();
   }
@@ -155,7 +134,7 @@ class Report {
   std::string notesText() const {
     std::string text;
     for (const std::string& note : reading_.notes) {
-      text += fmt::format("<p>Note: {}</p>\n", escaped(note));
+      text += fmt::format("<p>Note: {}</p>\n", htmlText(note));
     }
     return text;
   }
@@ -167,11 +146,11 @@ class Report {
   }
 
   std::string stepTitle(const std::string& id) const {
-    if (procedure_ == nullptr) return escaped(id);
+    if (procedure_ == nullptr) return htmlText(id);
     const auto step = procedure_->findStep(id);
-    if (!step) return escaped(id);
+    if (!step) return htmlText(id);
     return fmt::format("{}. {}", *step + 1,
-                       escaped(procedure_->text(*step, begun_->language).title));
+                       htmlText(procedure_->text(*step, begun_->language).title));
   }
 
   /// A row of its own for each new day; times are short then.
@@ -203,8 +182,8 @@ class Report {
   void addStep(const RecordEntry& entry, const StepDone& done) {
     const procedure::Words& words = procedure::wordsIn(begun_->language);
     std::string result(procedure::wordOf(words, done.outcome));
-    if (done.value) result = fmt::format("{:g} {}: {}", *done.value, escaped(done.unit), result);
-    if (!done.by.empty()) result += ", compared by the " + escaped(done.by);
+    if (done.value) result = fmt::format("{:g} {}: {}", *done.value, htmlText(done.unit), result);
+    if (!done.by.empty()) result += ", compared by the " + htmlText(done.by);
     using procedure::Outcome;
     const bool isFailed = done.outcome == Outcome::kNo || done.outcome == Outcome::kLow ||
                           done.outcome == Outcome::kHigh || done.outcome == Outcome::kFail ||
@@ -222,20 +201,20 @@ class Report {
     if (!isOfStep) addFigures();  // of a step that was not ended
     std::visit(
         hal::Overloaded{
-            [&](const Begun& each) { addRow(entry, "begun", escaped(each.operatorName)); },
+            [&](const Begun& each) { addRow(entry, "begun", htmlText(each.operatorName)); },
             [&](const StepDone& each) { addStep(entry, each); },
             [&](const SteppedBack& each) { addRow(entry, "back to " + stepTitle(each.next), ""); },
             [&](const StillTaken& each) {
               const std::string link = linkTo(each.file);
               figures_ += fmt::format(
                   "<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}: {}</figcaption></figure>",
-                  link, escaped(each.file), escaped(each.when), escaped(each.file));
+                  link, htmlText(each.file), htmlText(each.when), htmlText(each.file));
             },
             [&](const OperatorChanged& each) {
-              addRow(entry, "operator", escaped(each.operatorName));
+              addRow(entry, "operator", htmlText(each.operatorName));
             },
             [&](const ProcedureChanged& each) {
-              addRow(entry, "procedure changed", "version " + escaped(each.version));
+              addRow(entry, "procedure changed", "version " + htmlText(each.version));
             },
             [&](const Resumed& each) {
               addRow(entry, "resumed after an interruption",
@@ -244,7 +223,7 @@ class Report {
                          : "");
             },
             [&](const SignedOff& each) {
-              addRow(entry, "signed off", escaped(each.operatorName));
+              addRow(entry, "signed off", htmlText(each.operatorName));
             }},
         entry.event);
   }
