@@ -13,6 +13,7 @@
 #include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/commands/procedure.h"
 #include "hal/error.h"
+#include "pipeline/record/record_check.h"
 #include "pipeline/record/record_report.h"
 #include "pipeline/record/zip_file.h"
 
@@ -59,14 +60,15 @@ class RecordExport {
   std::size_t files() const { return added_.size(); }
 
  private:
-  /// Those that are there: what is missing is a finding, and in the report.
+  /// Those that are there: what is missing is a finding, and in the report. A record from elsewhere
+  /// may name any file of this machine.
   void addStills() {
     for (const record::RecordEntry& entry : reading_.entries) {
       const auto* still = std::get_if<record::StillTaken>(&entry.event);
       if (still == nullptr) continue;
-      const fs::path path = options_.record.parent_path() / still->file;
+      const auto path = record::pathOfStill(*still, options_.record.parent_path());
       std::error_code failure;
-      if (fs::is_regular_file(path, failure)) add(still->file, contentOf(path));
+      if (path && fs::is_regular_file(*path, failure)) add(still->file, contentOf(*path));
     }
   }
 

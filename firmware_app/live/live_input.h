@@ -62,6 +62,8 @@ class LiveInput {
   void releaseConsole() { terminal_.reset(); }
 
   bool wantsToQuit() const { return wantsToQuit_; }
+  /// Whether the picture is held.
+  bool isPaused() const { return tuning_.isPaused(); }
   /// Whether a snapshot was asked for since the last call.
   bool takeSnapshotRequest();
   /// A look file to be saved, or the command line to be shown, where one was asked for since the

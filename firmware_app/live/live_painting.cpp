@@ -71,9 +71,7 @@ class LivePainting {
         pipeline_(supervisor_, *job.clock),
         outputs_(job, pipeline_, reporter_, openFrameLog()),
         saver_(job.snapshots) {
-    if (job_.procedure != nullptr) {
-      machine_ = machinePlaceOf(job_.scene, job_.procedure->procedure());
-    }
+    if (job_.machine) machine_ = machinePlaceOf(job_.scene.models[*job_.machine]);
     if (!job.serviceManager) return;
     service_.emplace(*job.serviceManager);
     outputs_.renewWaitingAfter(service_->renewal());
@@ -392,12 +390,14 @@ class LivePainting {
   /// Steps that keys have made, and stills that they want.
   void attendProcedure() {
     if (job_.procedure == nullptr) return;
-    if (const auto tags = controls_.takeTags()) {
+    // A frame that is held is no evidence of what is done now.
+    const bool isHeld = input_.isPaused();
+    if (const auto tags = controls_.takeTags(); tags && !isHeld) {
       input_.see(*tags);
       job_.procedure->locate(poseQualityOf(machine_, *tags));
     }
     job_.procedure->poll();
-    if (job_.procedure->takeStillRequest()) controls_.requestStill();
+    if (!isHeld && job_.procedure->takeStillRequest()) controls_.requestStill();
     if (const auto still = controls_.takeStill()) {
       job_.procedure->putStill(still->image, still->place);
     }

@@ -274,7 +274,11 @@ void LiveProcedure::goOn() {
     giveValue();
   } else if (*kind == CheckKind::kCompare && comparesByItself()) {
     if (stills_.hasAnswer()) return;
-    stills_.add({.when = "check", .answer = {}, .compares = true, .requested = clock_.now()});
+    stills_.add({.step = stepper().step().id,
+                 .when = "check",
+                 .answer = {},
+                 .compares = true,
+                 .requested = clock_.now()});
   } else {
     note("this step asks a question: y or n");
   }
@@ -289,6 +293,10 @@ bool LiveProcedure::say(StepCommandKind word) {
     return true;
   }
   if (kind != CheckKind::kCompare) return false;
+  if (stills_.hasAnswer()) {
+    note("one moment: the camera's picture is awaited");
+    return true;
+  }
   if (comparesByItself() && !mayJudge_) {
     note("the picture decides: next, or photo");
     return true;
@@ -311,8 +319,11 @@ bool LiveProcedure::comparesByItself() const {
 void LiveProcedure::compare(const hal::Image& still,
                             const std::optional<inspection::TemplatePose>& place) {
   using procedure::Comparison;
+  const auto& check = stepper().step().check;
+  // The procedure may have been edited since the picture was asked for.
+  if (!check || check->kind != CheckKind::kCompare) return;
   if (!place) return note("the machine is not located: show its tags to the camera, then again");
-  const fs::path file = options_.folder / stepper().step().check->comparison;
+  const fs::path file = options_.folder / check->comparison;
   const auto picture = hal::readPictureRgb(file);
   if (!picture) return note(picture.error().message());
   std::optional<inspection::TemplatePose> pose;
@@ -381,7 +392,10 @@ void LiveProcedure::answer(const procedure::Answer& answer) {
 }
 
 void LiveProcedure::wantStill(std::string when, std::optional<procedure::Answer> answer) {
-  stills_.add({.when = std::move(when), .answer = std::move(answer), .requested = clock_.now()});
+  stills_.add({.step = stepper().step().id,
+               .when = std::move(when),
+               .answer = std::move(answer),
+               .requested = clock_.now()});
 }
 
 /// Wants the still before a step, unless a resumed record has it already.
@@ -403,7 +417,7 @@ void LiveProcedure::commit(const procedure::Answer& answer, const std::string& b
   if (!outcome) return;
   bool hasMoved = false;
   if (session_) {
-    const auto advanced = session_->answer(answer, pose_, by);
+    const auto advanced = session_->answer(answer, poseNow(), by);
     if (!advanced) {
       note(advanced.error().message());
       return;
@@ -417,6 +431,16 @@ void LiveProcedure::commit(const procedure::Answer& answer, const std::string& b
   const procedure::Words& words = procedure::wordsIn(options_.language);
   if (hasMoved) wantStillBefore();
   if (!hasMoved) note(fmt::format("{}: do this step again", procedure::wordOf(words, *outcome)));
+}
+
+void LiveProcedure::locate(const std::optional<record::PoseQuality>& pose) {
+  pose_ = pose;
+  located_ = clock_.now();
+}
+
+std::optional<record::PoseQuality> LiveProcedure::poseNow() const {
+  if (!pose_ || clock_.now() - located_ <= kPoseLasts) return pose_;
+  return record::PoseQuality{.source = "none"};
 }
 
 void LiveProcedure::goBack() {
@@ -463,6 +487,8 @@ void LiveProcedure::putStill(const hal::Result<hal::Image>& still,
   const std::optional<PendingStill> pending = stills_.take();
   if (!pending || isSignedOff() || stepper().isFinished()) return;
   if (!still) return note(still.error().message());
+  // One that was asked for before the step was left shows another step's work.
+  if (pending->step != stepper().step().id) return;
   if (session_) {
     const auto png = hal::encodePng(still->view());
     const auto added = png ? session_->addStill(pending->when, *png)
@@ -537,7 +563,10 @@ StepShown LiveProcedure::shown() const {
                   .step = stepper().current(),
                   .partsOff = stepper().partsOff(),
                   .language = options_.language};
-  if (isSignedOff()) return shown;
+  if (isSignedOff()) {
+    shown.step = procedure::kEnd;  // it may be aborted: nothing points at the machine any more
+    return shown;
+  }
   if (stepper().isFinished()) {
     shown.request = session_ ? "Enter: sign off, Page Up: back" : "Page Up: back";
     return shown;

@@ -45,6 +45,8 @@ class LiveProcedure {
   static constexpr hal::Duration kOneAtATime = std::chrono::milliseconds(400);
   /// A contact that bounces presses twice.
   static constexpr hal::Duration kBounce = std::chrono::milliseconds(50);
+  /// How long a pose says where the machine is, where no frame comes.
+  static constexpr hal::Duration kPoseLasts = std::chrono::milliseconds(500);
 
   /// Loads the procedure, and goes on with its newest record that is not signed off, or begins one.
   /// `clock` outlives this. Throws hal::Failure and config::ConfigError.
@@ -55,8 +57,9 @@ class LiveProcedure {
   /// Obeys a command of another input, which `source` names; false if it has no meaning here, which
   /// a notice says. Precondition: not StepCommandKind::kRaw, which concerns the painting.
   bool obey(const procedure::StepCommand& command, const std::string& source);
-  /// How well the machine is located now, for the record; nothing: it is not known.
-  void locate(const std::optional<record::PoseQuality>& pose) { pose_ = pose; }
+  /// How well the machine is located in a frame that has just come, for the record; nothing: the
+  /// scene does not place it. After kPoseLasts without a call, the record says "none".
+  void locate(const std::optional<record::PoseQuality>& pose);
   /// The current step for the caption: number, title, text, what it asks for.
   std::string text() const;
   /// What the current step shows.
@@ -98,6 +101,7 @@ class LiveProcedure {
   void commit(const procedure::Answer& answer, const std::string& by = {});
   bool comparesByItself() const;
   void compare(const hal::Image& still, const std::optional<inspection::TemplatePose>& place);
+  std::optional<record::PoseQuality> poseNow() const;
   void goBack();
   void changeOperator(const std::string& name);
   void signOff();
@@ -113,6 +117,7 @@ class LiveProcedure {
   std::optional<std::string> notice_;
   PendingStills stills_;
   std::optional<record::PoseQuality> pose_;
+  hal::TimePoint located_;               // when pose_ was told
   bool mayJudge_ = false;                // the program was uncertain at this step
   std::string source_;                   // of the input that is handled
   std::string moveSource_;               // of the last answer or step back

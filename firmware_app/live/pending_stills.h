@@ -11,6 +11,7 @@ namespace pleinair::app {
 
 /// A still of the camera that a procedure waits for.
 struct PendingStill {
+  std::string step;  ///< that it belongs to
   std::string when;  ///< "before", "after", "check", "extra"
   /// The answer that ends the step once the still is saved; nothing: the step goes on.
   std::optional<procedure::Answer> answer;

@@ -2,17 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <system_error>
-#include <variant>
-#include <vector>
 
 #include <glm/geometric.hpp>
 
 namespace pleinair::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 double shortestEdgeOf(const tracking::TagCornersPx& corners) {
   double least = glm::distance(corners.back(), corners.front());
@@ -24,15 +18,6 @@ double shortestEdgeOf(const tracking::TagCornersPx& corners) {
 
 double placeSigmaOf(const tracking::PoseCovariance& covariance) {
   return std::sqrt(covariance[21] + covariance[28] + covariance[35]);
-}
-
-/// Equal files under different paths are the same machine.
-bool isSameSource(const scene::ModelSource& a, const scene::ModelSource& b) {
-  const auto* fileA = std::get_if<scene::FileSource>(&a);
-  const auto* fileB = std::get_if<scene::FileSource>(&b);
-  if (fileA == nullptr || fileB == nullptr) return a == b;
-  std::error_code failure;
-  return fileA->path == fileB->path || fs::equivalent(fileA->path, fileB->path, failure);
 }
 
 }  // namespace
@@ -59,18 +44,8 @@ SeenTags seenTagsOf(const tracking::TrackingResult& tracking, hal::FrameSize fra
   return seen;
 }
 
-MachinePlace machinePlaceOf(const scene::Scene& scene, const procedure::Procedure& procedure) {
-  std::vector<const scene::SceneModel*> drawn;
-  for (const scene::SceneModel& model : scene.models) {
-    if (!model.isOccluder) drawn.push_back(&model);
-  }
-  const auto same = std::ranges::find_if(drawn, [&](const scene::SceneModel* model) {
-    return isSameSource(model->source, procedure.source);
-  });
-  const scene::SceneModel* machine = same != drawn.end() ? *same : nullptr;
-  if (machine == nullptr && drawn.size() == 1) machine = drawn.front();
-  if (machine == nullptr) return {};
-  return {.isKnown = true, .tagId = machine->tagId, .attachFromModel = machine->attachFromModel};
+MachinePlace machinePlaceOf(const scene::SceneModel& machine) {
+  return {.isKnown = true, .tagId = machine.tagId, .attachFromModel = machine.attachFromModel};
 }
 
 std::optional<glm::dmat4> cameraFromMachine(const MachinePlace& place,

@@ -10,7 +10,6 @@
 #include "firmware_app/live/command_cards.h"
 #include "hal/clock.h"
 #include "hal/image.h"
-#include "pipeline/procedure/procedure.h"
 #include "pipeline/record/record_entry.h"
 #include "pipeline/scene/description/scene.h"
 #include "pipeline/tracking/pose/tracker.h"
@@ -44,13 +43,13 @@ SeenTags seenTagsOf(const tracking::TrackingResult& tracking, hal::FrameSize fra
 /// Where a scene places the machine of a procedure: of several tag worlds, such as the machine and
 /// a tool board, the one that a record's pose quality is about.
 struct MachinePlace {
-  bool isKnown = false;      ///< some model of the scene is the machine
+  bool isKnown = false;      ///< the scene has the machine
   std::optional<int> tagId;  ///< nothing: the world
   glm::dmat4 attachFromModel{1.0};
 };
 
-/// The scene's model with the procedure's source, else its only model that is drawn.
-MachinePlace machinePlaceOf(const scene::Scene& scene, const procedure::Procedure& procedure);
+/// Of the scene's model that is the machine.
+MachinePlace machinePlaceOf(const scene::SceneModel& machine);
 
 /// Where the machine was in a frame that shows its tags; nothing where it is carried or not seen.
 std::optional<glm::dmat4> cameraFromMachine(const MachinePlace& place,

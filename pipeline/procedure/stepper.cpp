@@ -78,26 +78,31 @@ bool Stepper::back() {
   return true;
 }
 
-hal::Result<Stepper> Stepper::movedTo(std::shared_ptr<const Procedure> procedure) const {
-  Stepper moved(std::move(procedure));
-  const auto refuse = [&](std::size_t step) {
-    return tl::unexpected(
-        hal::Error{.kind = hal::ErrorKind::kInvalidInput,
-                   .subject = moved.procedure_->name,
-                   .problem = fmt::format("the way so far is not possible any more: step \"{}\"",
-                                          stepName(*procedure_, step)),
-                   .remedy = "the version that was begun, or another record"});
+hal::Result<Stepper> Stepper::along(std::shared_ptr<const Procedure> procedure,
+                                    std::span<const NamedStep> way, const std::string& current) {
+  Stepper stepper(std::move(procedure));
+  const auto refuse = [&](const std::string& step) {
+    return tl::unexpected(hal::Error{
+        .kind = hal::ErrorKind::kInvalidInput,
+        .subject = stepper.procedure_->name,
+        .problem = fmt::format("the way so far is not possible any more: step \"{}\"", step),
+        .remedy = "the version that was begun, or another record"});
   };
-  for (const PastStep& each : past_) {
-    if (moved.isFinished() || moved.step().id != stepName(*procedure_, each.step) ||
-        !moved.advance(each.outcome)) {
+  for (const NamedStep& each : way) {
+    if (stepper.isFinished() || stepper.step().id != each.step || !stepper.advance(each.outcome)) {
       return refuse(each.step);
     }
   }
-  if (stepName(moved.procedure(), moved.current_) != stepName(*procedure_, current_)) {
-    return refuse(current_);
+  if (stepName(stepper.procedure(), stepper.current_) != current) return refuse(current);
+  return stepper;
+}
+
+hal::Result<Stepper> Stepper::movedTo(std::shared_ptr<const Procedure> procedure) const {
+  std::vector<NamedStep> way;
+  for (const PastStep& each : past_) {
+    way.push_back({.step = stepName(*procedure_, each.step), .outcome = each.outcome});
   }
-  return moved;
+  return along(std::move(procedure), way, stepName(*procedure_, current_));
 }
 
 std::string stepName(const Procedure& procedure, std::size_t step) {

@@ -37,6 +37,12 @@ struct PastStep {
   Outcome outcome = Outcome::kDone;
 };
 
+/// The same, by the step's id, which other versions of the procedure have, too.
+struct NamedStep {
+  std::string step;
+  Outcome outcome = Outcome::kDone;
+};
+
 /// Where a running procedure stands: the current step, the way to it, and what is off the machine.
 /// No clock, no files, no user interface. A value; one thread at a time.
 class Stepper {
@@ -63,8 +69,11 @@ class Stepper {
   /// Goes back to the step before on the way, from the end too. False at the first step.
   bool back();
 
-  /// The same way through another version of the procedure, matched by ids. Error (kInvalidInput):
-  /// a step of the way, or the current one, is not there any more, or leads elsewhere.
+  /// At the end of a way, of steps that were left, which leads to the step `current` ("end"). Error
+  /// (kInvalidInput): one of them is not there, or leads elsewhere.
+  static hal::Result<Stepper> along(std::shared_ptr<const Procedure> procedure,
+                                    std::span<const NamedStep> way, const std::string& current);
+  /// The same way through another version of the procedure, matched by ids. Error: that of along().
   hal::Result<Stepper> movedTo(std::shared_ptr<const Procedure> procedure) const;
 
  private:

@@ -38,6 +38,15 @@ std::string linkFault(const RecordReading& reading, const RecordEntry& entry) {
   return {};
 }
 
+/// Since the machine was switched on, time only goes on, whatever is done to its clock.
+std::string timeFault(const RecordReading& reading, const RecordEntry& entry) {
+  if (reading.entries.empty()) return {};
+  const Moment& before = reading.entries.back().moment;
+  const bool isSameBoot = !before.boot.empty() && before.boot == entry.moment.boot;
+  if (!isSameBoot || entry.moment.monotonic >= before.monotonic) return {};
+  return "was written before the line before it";
+}
+
 void noteClock(RecordReading& reading, const RecordEntry& entry) {
   if (reading.entries.empty()) return;
   const Moment& before = reading.entries.back().moment;
@@ -53,10 +62,9 @@ void checkStills(RecordReading& reading, const fs::path& folder) {
   for (const RecordEntry& entry : reading.entries) {
     const auto* still = std::get_if<StillTaken>(&entry.event);
     if (still == nullptr) continue;
-    const fs::path file(still->file);
-    const bool isInside = file.is_relative() && *file.lexically_normal().begin() != "..";
-    const auto hash = isInside ? digest::hexOfFile(folder / file)
-                               : tl::unexpected(hal::Error{.problem = "is not beside the record"});
+    const std::optional<fs::path> file = pathOfStill(*still, folder);
+    const auto hash = file ? digest::hexOfFile(*file)
+                           : tl::unexpected(hal::Error{.problem = "is not beside the record"});
     if (!hash) {
       reading.findings.push_back(
           {entry.number + 1, fmt::format("still {}: {}", still->file, hash.error().problem)});
@@ -68,6 +76,20 @@ void checkStills(RecordReading& reading, const fs::path& folder) {
 }
 
 }  // namespace
+
+std::optional<fs::path> pathOfStill(const StillTaken& still, const fs::path& folder) {
+  const fs::path file(still.file);
+  if (file.empty() || file.is_absolute()) return std::nullopt;
+  // Links are followed: one may lead out of the folder.
+  std::error_code failure;
+  const fs::path base = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, failure);
+  if (failure) return std::nullopt;
+  const fs::path whole = fs::weakly_canonical(base / file, failure);
+  if (failure) return std::nullopt;
+  const fs::path within = whole.lexically_relative(base);
+  if (within.empty() || *within.begin() == ".." || *within.begin() == ".") return std::nullopt;
+  return whole;
+}
 
 bool RecordReading::isSignedOff() const {
   return !entries.empty() && std::holds_alternative<SignedOff>(entries.back().event);
@@ -97,7 +119,9 @@ RecordReading checkRecord(std::string_view content) {
       refuse(entry.error().problem);
       return reading;
     }
-    if (std::string fault = linkFault(reading, *entry); !fault.empty()) {
+    std::string fault = linkFault(reading, *entry);
+    if (fault.empty()) fault = timeFault(reading, *entry);
+    if (!fault.empty()) {
       refuse(std::move(fault));
       return reading;
     }

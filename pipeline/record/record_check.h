@@ -32,8 +32,14 @@ struct RecordReading {
   const std::string& finalHash() const;
 };
 
-/// Verifies the lines of a record: each one's hash, that each follows the one before, that the last
-/// one signs it off. Findings stop at the first line that breaks the chain.
+/// Where a still is, by the folder of its record; nothing where it would be outside of it, also
+/// through links. It need not be there.
+std::optional<std::filesystem::path> pathOfStill(const StillTaken& still,
+                                                 const std::filesystem::path& folder);
+
+/// Verifies the lines of a record: each one's hash, that each follows the one before, also in time
+/// within one start of the machine, that the last one signs it off. Findings stop at the first line
+/// that breaks the chain.
 RecordReading checkRecord(std::string_view content);
 
 /// Reads and verifies a record of at most 256 MiB, and the stills that it names. Errors: kNotFound,

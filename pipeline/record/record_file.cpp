@@ -75,7 +75,7 @@ hal::Result<RecordFile> RecordFile::lock(const std::filesystem::path& path,
 hal::Result<RecordFile> RecordFile::create(const std::filesystem::path& path, RecordSystem system) {
   constexpr mode_t kMode = 0640;
   hal::FileDescriptor fd(
-      open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, kMode));
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, kMode));
   if (!fd && errno == EEXIST) {
     return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
                                      .subject = path.string(),
@@ -88,20 +88,21 @@ hal::Result<RecordFile> RecordFile::create(const std::filesystem::path& path, Re
   return file;
 }
 
-hal::Result<RecordFile> RecordFile::openAt(const std::filesystem::path& path, std::uint64_t size,
-                                           RecordSystem system) {
-  hal::FileDescriptor fd(open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NONBLOCK));
-  auto file = lock(path, std::move(fd), std::move(system));
-  if (!file || file->size_ <= size) return file;
-  if (const int answer = file->system_.truncate(file->file_.get(), static_cast<off_t>(size));
-      answer != 0) {
-    return tl::unexpected(failureOf(path, "cannot cut", -answer));
+hal::Result<RecordFile> RecordFile::open(const std::filesystem::path& path, RecordSystem system) {
+  hal::FileDescriptor fd(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NONBLOCK));
+  return lock(path, std::move(fd), std::move(system));
+}
+
+hal::Result<void> RecordFile::cutAfter(std::uint64_t size) {
+  if (size_ <= size) return {};
+  if (const int answer = system_.truncate(file_.get(), static_cast<off_t>(size)); answer != 0) {
+    return tl::unexpected(failureOf(path_, "cannot cut", -answer));
   }
-  if (const int answer = file->system_.sync(file->file_.get()); answer != 0) {
-    return tl::unexpected(failureOf(path, "cannot sync", -answer));
+  if (const int answer = system_.sync(file_.get()); answer != 0) {
+    return tl::unexpected(failureOf(path_, "cannot sync", -answer));
   }
-  file->size_ = size;
-  return file;
+  size_ = size;
+  return {};
 }
 
 hal::Result<void> RecordFile::append(std::string_view bytes) {

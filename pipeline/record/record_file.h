@@ -32,10 +32,12 @@ class RecordFile {
   /// already), kNotFound (no such folder), kPermissionDenied, kNoSpace, kBusy, kIo.
   static hal::Result<RecordFile> create(const std::filesystem::path& path,
                                         RecordSystem system = RecordSystem::real());
-  /// Opens the file to go on after its first `size` bytes; what follows them is cut off. Errors: as
-  /// above, but kNotFound where there is no file.
-  static hal::Result<RecordFile> openAt(const std::filesystem::path& path, std::uint64_t size,
-                                        RecordSystem system = RecordSystem::real());
+  /// Opens the file to go on at its end. Errors: as above, but kNotFound where there is no file.
+  static hal::Result<RecordFile> open(const std::filesystem::path& path,
+                                      RecordSystem system = RecordSystem::real());
+
+  /// Cuts off what follows the first `size` bytes. Error: kIo.
+  hal::Result<void> cutAfter(std::uint64_t size);
 
   /// Writes all bytes and waits for the disk. After an error, the file is as it was before, and the
   /// call can be tried again when there is space; except that after a failed sync, or where the

@@ -46,20 +46,26 @@ hal::Result<RecordWriter> RecordWriter::create(const fs::path& path, const Begun
 
 hal::Result<RecordWriter> RecordWriter::resume(const fs::path& path, const std::string& program,
                                                MomentSource clock, RecordSystem system) {
+  // Locked first: what is read then is not appended to by another program meanwhile.
+  auto file = RecordFile::open(path, std::move(system));
+  if (!file) return tl::unexpected(std::move(file.error()));
   auto reading = checkRecordFile(path);
   if (!reading) return tl::unexpected(std::move(reading.error()));
   if (reading->isSignedOff()) return tl::unexpected(resumeFault(path, "is signed off"));
   for (const RecordFinding& finding : reading->findings) {
     const bool isTorn = reading->tornBytes > 0 && finding.line == reading->entries.size() + 1;
-    if (finding.line == 0 || isTorn) continue;
+    // Of a whole line, what is wrong is its still, which is told in the end; the work goes on.
+    const bool isOfStill = finding.line <= reading->entries.size();
+    if (isOfStill || isTorn) continue;
     return tl::unexpected(
         resumeFault(path, fmt::format("line {} {}", finding.line, finding.problem)));
   }
   if (reading->entries.empty()) {
     return tl::unexpected(resumeFault(path, "has no line that was completed"));
   }
-  auto file = RecordFile::openAt(path, reading->chainedBytes, std::move(system));
-  if (!file) return tl::unexpected(std::move(file.error()));
+  if (auto cut = file->cutAfter(reading->chainedBytes); !cut) {
+    return tl::unexpected(std::move(cut.error()));
+  }
   RecordWriter writer(path, std::move(*file), std::move(reading->entries), std::move(clock));
   if (auto added = writer.add(Resumed{.cutBytes = reading->tornBytes, .program = program});
       !added) {

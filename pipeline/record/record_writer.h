@@ -23,7 +23,7 @@ class RecordWriter {
                                           MomentSource clock = systemMoment,
                                           RecordSystem system = RecordSystem::real());
   /// Goes on with a record that was not signed off. A line that a power cut tore is cut off; it was
-  /// never acknowledged. Errors: those of RecordFile::openAt() and checkRecordFile(), and
+  /// never acknowledged. Errors: those of RecordFile::open() and checkRecordFile(), and
   /// kInvalidInput for a record that was changed or is signed off.
   static hal::Result<RecordWriter> resume(const std::filesystem::path& path,
                                           const std::string& program,

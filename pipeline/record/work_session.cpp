@@ -1,8 +1,10 @@
 #include "pipeline/record/work_session.h"
 
 #include <cassert>
+#include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -19,24 +21,31 @@ hal::Error replayFault(const RecordWriter& writer, std::uint64_t line, std::stri
           .remedy = "the version of the procedure that was begun, or another record"};
 }
 
-/// Follows one line of the record; what is wrong, or nothing.
-std::string follow(Stepper& stepper, const Event& event) {
-  if (const auto* done = std::get_if<StepDone>(&event)) {
-    if (stepper.isFinished() || stepper.step().id != done->step) {
-      return fmt::format("step \"{}\" is not where the procedure stands", done->step);
+/// The steps that a record left, on the way to where it stands. Versions of the procedure may have
+/// changed meanwhile: what a step led to is what the record says, not what the last version would.
+struct Way {
+  std::vector<procedure::NamedStep> left;
+  std::string current;
+
+  /// Follows one line; what is wrong, or nothing.
+  std::string follow(const Event& event) {
+    if (const auto* done = std::get_if<StepDone>(&event)) {
+      if (done->step != current) {
+        return fmt::format("step \"{}\" is not where the procedure stands", done->step);
+      }
+      if (done->next == current) return {};
+      left.push_back({.step = done->step, .outcome = done->outcome});
+      current = done->next;
+    } else if (const auto* back = std::get_if<SteppedBack>(&event)) {
+      if (left.empty() || left.back().step != back->next) {
+        return fmt::format("the way back leads to another step than \"{}\"", back->next);
+      }
+      left.pop_back();
+      current = back->next;
     }
-    stepper.advance(done->outcome);
-    if (procedure::stepName(stepper.procedure(), stepper.current()) != done->next) {
-      return fmt::format("step \"{}\" leads elsewhere now", done->step);
-    }
-  } else if (const auto* back = std::get_if<SteppedBack>(&event)) {
-    stepper.back();
-    if (procedure::stepName(stepper.procedure(), stepper.current()) != back->next) {
-      return fmt::format("the way back leads to another step than \"{}\"", back->next);
-    }
+    return {};
   }
-  return {};
-}
+};
 
 }  // namespace
 
@@ -67,27 +76,30 @@ hal::Result<WorkSession> WorkSession::resume(std::shared_ptr<const Procedure> pr
                                              RecordSystem system) {
   auto writer = RecordWriter::resume(record, program, clock, std::move(system));
   if (!writer) return tl::unexpected(std::move(writer.error()));
-  Stepper stepper(std::move(procedure));
+  Way way;
   std::string operatorName;
   std::string hash;
   for (const RecordEntry& entry : writer->entries()) {
     if (const auto* begun = std::get_if<Begun>(&entry.event)) {
-      if (begun->procedure != stepper.procedure().name) {
+      if (begun->procedure != procedure->name) {
         return tl::unexpected(
             replayFault(*writer, 1, fmt::format("is of the procedure \"{}\"", begun->procedure)));
       }
       operatorName = begun->operatorName;
       hash = begun->hash;
+      way.current = begun->step;
     }
     if (const auto* changed = std::get_if<OperatorChanged>(&entry.event)) {
       operatorName = changed->operatorName;
     }
     if (const auto* changed = std::get_if<ProcedureChanged>(&entry.event)) hash = changed->hash;
-    if (std::string problem = follow(stepper, entry.event); !problem.empty()) {
+    if (std::string problem = way.follow(entry.event); !problem.empty()) {
       return tl::unexpected(replayFault(*writer, entry.number + 1, std::move(problem)));
     }
   }
-  WorkSession session(std::move(stepper), std::move(*writer), operatorName, std::move(clock));
+  auto stepper = Stepper::along(std::move(procedure), way.left, way.current);
+  if (!stepper) return tl::unexpected(std::move(stepper.error()));
+  WorkSession session(std::move(*stepper), std::move(*writer), operatorName, std::move(clock));
   const Procedure& now = session.stepper_.procedure();
   if (now.hash != hash) {
     auto added = session.writer_.add(ProcedureChanged{.version = now.version, .hash = now.hash});

@@ -19,18 +19,19 @@ TEST_F(RecordFileTest, IsNeverOverwrittenAndWrittenByOneAtATime) {
   ASSERT_TRUE(first);
   ASSERT_TRUE(first->append("line\n"));
   EXPECT_EQ(RecordFile::create(path()).error().kind, hal::ErrorKind::kInvalidArgument);
-  EXPECT_EQ(RecordFile::openAt(path(), 5).error().kind, hal::ErrorKind::kBusy);
+  EXPECT_EQ(RecordFile::open(path()).error().kind, hal::ErrorKind::kBusy);
   EXPECT_EQ(contentOf(path()), "line\n");
   EXPECT_EQ(RecordFile::create(folder_.path() / "none" / "x").error().kind,
             hal::ErrorKind::kNotFound);
-  EXPECT_EQ(RecordFile::openAt(folder_.path() / "none", 0).error().kind, hal::ErrorKind::kNotFound);
-  EXPECT_EQ(RecordFile::openAt("/dev/full", 0).error().kind, hal::ErrorKind::kInvalidArgument);
+  EXPECT_EQ(RecordFile::open(folder_.path() / "none").error().kind, hal::ErrorKind::kNotFound);
+  EXPECT_EQ(RecordFile::open("/dev/full").error().kind, hal::ErrorKind::kInvalidArgument);
 }
 
 TEST_F(RecordFileTest, GoesOnWhereItIsCut) {
   writeContent(path(), "one\ntw");
-  auto file = RecordFile::openAt(path(), 4);
+  auto file = RecordFile::open(path());
   ASSERT_TRUE(file);
+  ASSERT_TRUE(file->cutAfter(4));
   ASSERT_TRUE(file->append("two\n"));
   EXPECT_EQ(contentOf(path()), "one\ntwo\n");
   EXPECT_EQ(file->size(), 8U);

@@ -125,5 +125,28 @@ TEST_F(RecordTampering, AClockThatIsSetBackIsANoteAndNoFinding) {
   EXPECT_THAT(reading.notes[0], HasSubstr("line 3: the wall clock was set back by 7199.0 s"));
 }
 
+TEST_F(RecordTampering, TimeThatGoesBackWithinOneStartOfTheMachineIsFound) {
+  std::filesystem::remove(path());
+  auto session = begin();
+  ASSERT_TRUE(session);
+  ASSERT_TRUE(session->answer(procedure::Done{}));
+  now_ -= std::chrono::seconds(60);
+  ASSERT_TRUE(session->signOff());
+  EXPECT_THAT(checkRecordFile(path())->findings.at(0).problem,
+              HasSubstr("was written before the line before it"));
+}
+
+TEST_F(RecordTampering, AStillIsBesideItsRecord) {
+  const auto pathOf = [&](const std::string& file) {
+    return pathOfStill({.file = file}, folder_.path());
+  };
+  EXPECT_TRUE(pathOf("work.stills/0001.png"));
+  std::filesystem::create_symlink("/etc", folder_.path() / "link");
+  for (const char* file : {"", ".", "..", "../x.png", "work.stills/../../x.png", "/etc/passwd",
+                           "link/passwd", "link"}) {
+    EXPECT_FALSE(pathOf(file)) << file;
+  }
+}
+
 }  // namespace
 }  // namespace pleinair::record

@@ -44,10 +44,12 @@ TEST_F(WorkSessionTest, AnAnswerOfAnotherKindIsRefusedAndNotRecorded) {
 }
 
 TEST_F(WorkSessionTest, IsAbortedBeforeTheEnd) {
-  auto session = begin();
-  ASSERT_TRUE(session->signOff("no spare part"));
-  EXPECT_EQ(std::get<SignedOff>(session->record().entries().back().event).result,
-            SignOff::kAborted);
+  {
+    auto session = begin();
+    ASSERT_TRUE(session->signOff("no spare part"));
+    EXPECT_EQ(std::get<SignedOff>(session->record().entries().back().event).result,
+              SignOff::kAborted);
+  }
   EXPECT_THAT(resume().error().problem, HasSubstr("is signed off"));
 }
 
@@ -87,6 +89,40 @@ TEST_F(WorkSessionTest, AnEditedProcedureIsTakenWhereTheWayIsStillPossible) {
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().problem, HasSubstr("the way so far is not possible any more"));
   EXPECT_EQ(session->stepper().procedure().version, "2") << "the version before stays in force";
+}
+
+TEST_F(WorkSessionTest, GoesOnAfterAnAnswerThatKeptItsStepAndLeadsElsewhereNow) {
+  {
+    auto session = begin();
+    ASSERT_TRUE(session->answer(Done{}));
+    ASSERT_TRUE(session->answer(YesNo{true}));
+    ASSERT_EQ(session->answer(MeasuredValue{9.0}).value(), Advance::kStayed);
+  }
+  auto edited = std::make_shared<procedure::Procedure>(*procedureOf());
+  edited->hash = std::string(64, 'b');
+  edited->steps[2].next[procedure::Outcome::kHigh] = 0;
+  const auto session = WorkSession::resume(edited, path(), "1", clock());
+  ASSERT_TRUE(session) << session.error().message();
+  EXPECT_EQ(session->stepper().step().id, "c");
+}
+
+TEST_F(WorkSessionTest, GoesOnWithoutAStillThatWasDeletedAndSaysSoInTheEnd) {
+  {
+    auto session = begin();
+    ASSERT_TRUE(session->addStill("before", std::vector<std::uint8_t>{1, 2, 3}));
+    ASSERT_TRUE(session->answer(Done{}));
+  }
+  std::filesystem::remove_all(folder_.path() / "work.stills");
+  auto session = resume();
+  ASSERT_TRUE(session) << session.error().message();
+  EXPECT_EQ(session->stepper().step().id, "b");
+  ASSERT_TRUE(session->signOff());
+  EXPECT_EQ(checkRecordFile(path())->findings.size(), 1U);
+}
+
+TEST_F(WorkSessionTest, IsOfOneProgramAtATime) {
+  const auto session = begin();
+  EXPECT_EQ(resume().error().kind, hal::ErrorKind::kBusy);
 }
 
 TEST_F(WorkSessionTest, AResumptionWithAnotherProcedureIsRefusedOrNoted) {

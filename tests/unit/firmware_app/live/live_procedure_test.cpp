@@ -202,6 +202,40 @@ TEST_F(LiveProcedureTest, ACameraThatGivesNoPictureKeepsTheStep) {
   EXPECT_EQ(live.status().step, "end");
 }
 
+TEST_F(LiveProcedureTest, AStillOfAStepThatWasLeftIsNoneOfTheNext) {
+  LiveProcedure live = begin();
+  EXPECT_TRUE(live.obey({.kind = procedure::StepCommandKind::kPhoto}, "pedal"));
+  EXPECT_TRUE(live.takeStillRequest());
+  press(live, "pagedown");
+  EXPECT_EQ(live.status().step, "look");
+  live.putStill(picture());  // asked for at the step before
+  const auto reading = record::checkRecordFile(live.status().record);
+  for (const auto& entry : reading->entries) {
+    EXPECT_FALSE(std::holds_alternative<record::StillTaken>(entry.event));
+  }
+}
+
+TEST_F(LiveProcedureTest, APoseOfAFrameThatIsLongPastIsNotRecorded) {
+  LiveProcedure live = begin();
+  const auto sourceOfLast = [&] {
+    const auto reading = record::checkRecordFile(live.status().record);
+    return std::get<record::StepDone>(reading->entries.back().event).pose->source;
+  };
+  live.locate(record::PoseQuality{.source = "seen"});
+  press(live, "pagedown");
+  EXPECT_EQ(sourceOfLast(), "seen");
+  clock_.advance(std::chrono::seconds(2));  // the camera is gone
+  press(live, "y");
+  EXPECT_EQ(sourceOfLast(), "none");
+}
+
+TEST_F(LiveProcedureTest, PointsAtNothingOnceItIsSignedOff) {
+  LiveProcedure live = begin();
+  EXPECT_EQ(live.shown().step, 0U);
+  EXPECT_TRUE(live.press({.name = "x", .shift = true}));
+  EXPECT_EQ(live.shown().step, procedure::kEnd);
+}
+
 TEST_F(LiveProcedureTest, ADiskThatIsFullAtAStillKeepsTheStepUntilThereIsSpace) {
   LiveProcedure live = begin();
   press(live, "pagedown y 1 return pagedown");

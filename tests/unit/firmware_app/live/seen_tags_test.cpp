@@ -5,27 +5,13 @@
 namespace pleinair::app {
 namespace {
 
-scene::SceneModel model(const std::string& file, std::optional<int> tag, bool isOccluder = false) {
-  scene::SceneModel model{.name = file, .source = scene::FileSource{file}, .tagId = tag};
-  model.isOccluder = isOccluder;
-  return model;
-}
-
-procedure::Procedure procedureOf(const std::string& file) {
-  procedure::Procedure procedure;
-  procedure.source = scene::FileSource{file};
-  return procedure;
-}
-
-TEST(MachinePlace, OfTwoTagWorldsIsTheOneOfTheProceduresModel) {
-  scene::Scene scene;
-  scene.models = {model("board.glb", 7), model("machine.glb", 3), model("bench.glb", 1, true)};
-  EXPECT_EQ(machinePlaceOf(scene, procedureOf("machine.glb")).tagId, 3);
-  EXPECT_EQ(machinePlaceOf(scene, procedureOf("board.glb")).tagId, 7);
-  EXPECT_FALSE(machinePlaceOf(scene, procedureOf("other.glb")).isKnown) << "two could be it";
-  scene.models.erase(scene.models.begin());
-  EXPECT_EQ(machinePlaceOf(scene, procedureOf("other.glb")).tagId, 3) << "the only one drawn";
-  EXPECT_FALSE(machinePlaceOf({}, procedureOf("other.glb")).isKnown);
+TEST(MachinePlace, IsWhereTheSceneHasTheModel) {
+  scene::SceneModel machine{.tagId = 3};
+  machine.attachFromModel[3][0] = 0.5;
+  const MachinePlace place = machinePlaceOf(machine);
+  EXPECT_TRUE(place.isKnown);
+  EXPECT_EQ(place.tagId, 3);
+  EXPECT_EQ(place.attachFromModel[3][0], 0.5);
 }
 
 class PoseQualityTest : public testing::Test {
