@@ -5,6 +5,7 @@
 #include <charconv>
 #include <csignal>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -85,7 +86,9 @@ TrialProcess::TrialProcess(std::vector<std::string> arguments, std::span<const i
 TrialProcess::~TrialProcess() {
   if (process_ < 0) return;
   ::kill(process_, SIGKILL);
-  ::waitpid(process_, nullptr, 0);
+  if (::waitpid(process_, nullptr, WNOHANG) != 0) return;
+  // A driver call that cannot be interrupted holds the process: it is not waited for here.
+  std::thread([process = process_] { ::waitpid(process, nullptr, 0); }).detach();
 }
 
 /// How it has ended.

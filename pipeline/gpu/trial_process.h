@@ -25,7 +25,7 @@ class TrialProcess {
   /// into the display's memory".
   TrialProcess(std::vector<std::string> arguments, std::span<const int> descriptors,
                std::string task, const hal::Clock& clock);
-  /// Ends it where it still runs.
+  /// Ends it where it still runs; does not wait for its end.
   ~TrialProcess();
   TrialProcess(const TrialProcess&) = delete;
   TrialProcess& operator=(const TrialProcess&) = delete;

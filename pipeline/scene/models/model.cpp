@@ -181,6 +181,9 @@ template <class Visit>
 void forEachSphere(const Model& model, const ModelPose& pose, bool sweeps, Visit visit) {
   assert(model.bounds.size() == model.surfaces.size());
   for (const ModelPart& part : model.parts) {
+    // A hidden part shrinks to a point, which is no place of the model
+    // (PosedGeometry::hideParts()).
+    if (pose.matrices[part.firstMatrix] == glm::dmat4(0.0)) continue;
     for (std::size_t i = 0; i < part.surfaceCount; ++i) {
       if (model.surfaces[part.firstSurface + i].mesh.vertices.empty()) continue;
       const SurfaceBounds& bounds = model.bounds[part.firstSurface + i];

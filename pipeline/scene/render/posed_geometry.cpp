@@ -158,6 +158,7 @@ void PosedGeometry::pose(std::size_t index, hal::Duration elapsed, hal::Duration
 void PosedGeometry::hideParts(std::size_t index, std::span<const std::uint8_t> hidden) {
   ObjectSlot& object = objects_[index];
   assert(hidden.empty() || hidden.size() == model(index).parts.size());
+  if (std::ranges::equal(object.hidden, hidden)) return;
   object.hidden.assign(hidden.begin(), hidden.end());
   object.isAtRest = {};
 }
@@ -230,7 +231,7 @@ void PosedGeometry::reset() {
 }
 
 bool PosedGeometry::isStatic(std::size_t object) const {
-  return isAlwaysStatic(model(object), scene_.models[object].playback);
+  return objects_[object].isAtRest[0] && objects_[object].isAtRest[1];
 }
 
 ObjectPlace PosedGeometry::place(std::size_t index) const {

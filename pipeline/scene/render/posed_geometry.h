@@ -51,7 +51,8 @@ class PosedGeometry {
 
   /// A sphere around the posed object, in its model's frame.
   const BoundingSphere& sphere(std::size_t object) const { return objects_[object].sphere; }
-  /// Whether the object never changes.
+  /// Whether the object never changes, and looks as it did in the frame before: false in the first
+  /// two frames, and after hideParts().
   bool isStatic(std::size_t object) const;
   /// Several spheres that bound it more closely.
   std::span<const BoundingSphere> spheres(std::size_t object) const {

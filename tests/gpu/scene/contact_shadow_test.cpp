@@ -258,6 +258,27 @@ TEST_F(ContactShadowTest, OccludersHideItAndCastNone) {
   EXPECT_EQ(none.missing(pixelAbove({0.075, 0.0})), 0.0);
 }
 
+TEST_F(ContactShadowTest, OfAHiddenPartIsGoneUntilThePartIsBack) {
+  Scene scene = boxOnTag();
+  auto model = std::make_shared<Model>(*scene.models[0].model);
+  model->parts.push_back(model->parts[0]);
+  model->parts[1].modelFromPart = glm::translate(glm::dmat4(1.0), {0.0, 0.15, 0.0});
+  numberParts(*model);
+  scene.models[0].model = model;
+  ArFrameRenderer renderer(library_, scene);
+  const auto missingAt = [&](const glm::dvec2& place) {
+    Shown shown(drawn(renderer, keyAlone({-1, 0, 1})));
+    return shown.missing(pixelAbove(place));
+  };
+  constexpr glm::dvec2 kFirst{0.055, 0.0}, kSecond{0.055, 0.15};
+  for (int frame = 0; frame < 3; ++frame) EXPECT_GT(missingAt(kSecond), 0.8);
+  renderer.hideParts(0, std::array<std::uint8_t, 2>{0, 1});
+  EXPECT_EQ(missingAt(kSecond), 0.0);
+  EXPECT_GT(missingAt(kFirst), 0.8);
+  renderer.hideParts(0, {});
+  EXPECT_GT(missingAt(kSecond), 0.8);
+}
+
 TEST_F(ContactShadowTest, LeavesWhatIsKnownOfTheGroundAlone) {
   ArFrameRenderer renderer(library_, boxOnTag());
   const ArFrame& frame = drawn(renderer, keyAlone({-1, 0, 1}));

@@ -94,6 +94,23 @@ TEST(ModelPose, IsHeldByItsSphereTightly) {
   }
 }
 
+TEST(ModelPose, APartThatIsHiddenIsNotInItsSphere) {
+  Model model = bentBox();
+  model.parts.push_back(model.parts[0]);
+  numberParts(model);
+  ModelPose pose;
+  poseModel(model, std::nullopt, hal::Duration::zero(), pose);
+  for (glm::dmat4& matrix : pose.matrices) matrix[3] += glm::dvec4(100.0, 0.0, 0.0, 0.0);
+  const BoundingSphere both = boundingSphere(model, pose);
+  const ModelPart& second = model.parts[1];
+  for (std::uint32_t i = 0; i < second.matrixCount; ++i) {
+    pose.matrices[second.firstMatrix + i] = glm::dmat4(0.0);
+  }
+  const BoundingSphere one = boundingSphere(model, pose);
+  EXPECT_LT(glm::distance(one.centre, both.centre), 1e-6) << "not half-way to the origin";
+  EXPECT_LE(one.radiusMetres, both.radiusMetres + 1e-6);
+}
+
 TEST(ModelPose, AllocatesOnlyOnce) {
   const Model model = bentBox();
   ModelPose pose;
