@@ -226,12 +226,16 @@ std::optional<std::size_t> TomlTable::optionalChoice(std::string_view key,
   const toml::node* node = state_->ask(key);
   if (!node) return std::nullopt;
   const auto* value = node->as_string();
-  const auto found =
-      value ? std::find(choices.begin(), choices.end(), value->get()) : choices.end();
+  // "90" may be written as a number.
+  const auto* number = node->as_integer();
+  const std::string text = value    ? value->get()
+                           : number ? fmt::format("{}", number->get())
+                                    : std::string();
+  const auto found = std::find(choices.begin(), choices.end(), text);
   if (found == choices.end() && value) {
     throw error(key, "found " + foundText(value->get(), choices), listText(choices));
   }
-  if (!value) throw state_->wrong(pathOf(key), *node, true, listText(choices));
+  if (found == choices.end()) throw state_->wrong(pathOf(key), *node, true, listText(choices));
   return static_cast<std::size_t>(found - choices.begin());
 }
 

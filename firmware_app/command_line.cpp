@@ -111,9 +111,12 @@ int reportParseError(const CLI::App& app, const CLI::ParseError& error) {
                               dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
   const std::string text =
       isAboutUnknown && !unknown.empty() ? unknownText(app, unknown) : error.what();
-  const std::vector<CLI::App*> subcommands = app.get_subcommands();
-  printError(fmt::format("{}; see pleinair {}--help", text,
-                         subcommands.empty() ? "" : subcommands.front()->get_name() + " "));
+  std::string path;
+  for (auto within = app.get_subcommands(); !within.empty();
+       within = within.front()->get_subcommands()) {
+    path += within.front()->get_name() + " ";
+  }
+  printError(fmt::format("{}; see pleinair {}--help", text, path));
   return static_cast<int>(ExitStatus::kUsage);
 }
 

@@ -99,11 +99,24 @@ std::string refuseStandardOutput(const std::string& text) {
   return foundText(text, "the name of a file; nothing is written to standard output");
 }
 
-std::string requirePngName(const std::string& text) {
+namespace {
+
+std::string requireEnding(const std::string& text, std::string_view ending,
+                          std::string_view upper) {
   if (text.empty()) return {};  // refuseEmptyValues() gives the better message
-  const std::filesystem::path ending = std::filesystem::path(text).extension();
-  if (ending == ".png" || ending == ".PNG") return {};
-  return foundText(text, "a name that ends in .png");
+  const std::filesystem::path has = std::filesystem::path(text).extension();
+  if (has == ending || has == upper) return {};
+  return foundText(text, fmt::format("a name that ends in {}", ending));
+}
+
+}  // namespace
+
+std::string requirePngName(const std::string& text) {
+  return requireEnding(text, ".png", ".PNG");
+}
+
+std::string requirePdfName(const std::string& text) {
+  return requireEnding(text, ".pdf", ".PDF");
 }
 
 void refuseEmptyValues(CLI::App& command) {

@@ -32,6 +32,8 @@ std::pair<double, double> vectorOf(const std::string& option, const std::string&
 std::string refuseStandardOutput(const std::string& text);
 /// Requires a name that ends in .png or .PNG.
 std::string requirePngName(const std::string& text);
+/// Requires a name that ends in .pdf or .PDF.
+std::string requirePdfName(const std::string& text);
 
 /// Adds a check against empty values to each option of the subcommand that takes a value.
 void refuseEmptyValues(CLI::App& command);

@@ -98,11 +98,29 @@ LookFile lookFileOf(const Sections& sections) {
   }
 }
 
-/// A look file that a layer names chooses its style, which the layer must not contradict.
+/// The style with a look of this name, where there is one only; nothing where `style` has it.
+std::optional<std::string> otherStyleWith(const std::string& look, const std::string& style) {
+  std::vector<std::string> having;
+  for (const styles::StyleKind* kind : styles::styleKinds()) {
+    const bool hasIt =
+        std::ranges::find(kind->looks, look, &styles::Look::name) != kind->looks.end();
+    if (hasIt && kind->name == style) return std::nullopt;
+    if (hasIt) having.emplace_back(kind->name);
+  }
+  return having.size() == 1 ? std::optional(having.front()) : std::nullopt;
+}
+
+/// A look that a layer names chooses its style, which the layer must not contradict.
 void chooseStyleOfLook(Sections& sections, const Sections& before) {
   const PaintingSettings painting = paintingOf(sections);
   const std::string& place = sections.origin(kLookKey);
-  if (!isLookFile(painting.look) || place == before.origin(kLookKey)) return;
+  if (place == before.origin(kLookKey)) return;
+  if (!isLookFile(painting.look)) {
+    const bool isOpen = sections.origin(kStyleKey) == before.origin(kStyleKey);
+    const auto other = otherStyleWith(painting.look.string(), painting.style);
+    if (isOpen && other) sections.apply(kStyleKey, *other, place);
+    return;
+  }
   const std::string style = lookFileOf(sections).style;
   if (style == painting.style) return;
   if (sections.origin(kStyleKey) != before.origin(kStyleKey)) {

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <spdlog/spdlog.h>
+
 #include "config/config_error.h"
 #include "config/suggestion.h"
 #include "firmware_app/config/configuration_sections.h"
@@ -219,8 +221,13 @@ std::string configuredToken(const Configuration& configuration, bool isPassed) {
 std::unique_ptr<StatusServer> configuredStatusServer(const Configuration& configuration,
                                                      StatusPages pages,
                                                      hal::FileDescriptor passed) {
-  if (passed) return startStatusServer(std::move(passed), std::move(pages));
-  return startStatusServer(configuration.status().listen, std::move(pages));
+  auto server = passed ? startStatusServer(std::move(passed), std::move(pages))
+                       : startStatusServer(configuration.status().listen, std::move(pages));
+  if (server) {
+    spdlog::info("status: http://{}/ (for programs: /status, /metrics and /healthz)",
+                 server->address());
+  }
+  return server;
 }
 
 std::vector<NamedPath> configuredFiles(const Configuration& configuration,

@@ -268,7 +268,7 @@ void addRecord(CLI::App& app, RecordOptions& options, std::function<int()>& chos
 void addLooks(CLI::App& app, LooksOptions& options, std::function<int()>& chosen) {
   CLI::App& command = *app.add_subcommand(
       "looks", "paint one picture in every look of every style, on one sheet with their names");
-  command.add_option("--input", options.input, "a picture, or a movie")
+  command.add_option("FILE,--input", options.input, "a picture, or a movie")
       ->required()
       ->type_name("PATH");
   command

@@ -52,7 +52,7 @@ void addTags(CLI::App& app, TagsOptions& options, std::function<int()>& chosen) 
       "tags", "print tags or a calibration board at their true size, as a PDF with rulers");
   command.add_option("--sheet", options.sheet, "the PDF")
       ->required()
-      ->check(refuseStandardOutput)
+      ->check(requirePdfName)
       ->type_name("FILE");
   command
       .add_option_function<std::string>(

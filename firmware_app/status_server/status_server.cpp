@@ -225,7 +225,6 @@ class MicroHttpServer final : public StatusServer {
                          MHD_OPTION_END));
     if (!daemon_) throw cannotListen(listen, errno);
     socket.release();  // the daemon's now
-    spdlog::info("status: http://{0}/ (for programs: /status, /metrics and /healthz)", address_);
   }
 
   const std::string& address() const override { return address_; }

@@ -49,6 +49,9 @@ void place(cv::Mat& sheet, const hal::Image& picture, int column, int row) {
   matOf(picture.view()).copyTo(sheet(where));
 }
 
+/// More are held than are shown, since those that are shown are to be evenly spaced.
+constexpr std::size_t kKeptPerMoment = 4;
+
 void label(cv::Mat& sheet, const std::string& text, hal::FrameSize tile, int column, int row) {
   const cv::Point at(kGapPx + column * (tile.width + kGapPx) + 8,
                      kGapPx + row * (tile.height + kGapPx) + 20);
@@ -65,11 +68,11 @@ ContactSheet::ContactSheet(int moments) : wanted_(static_cast<std::size_t>(momen
 void ContactSheet::add(const hal::ImageView& original, const hal::ImageView& painted,
                        hal::Duration time) {
   moments_.push_back({tile(original), tile(painted), time});
-  if (moments_.size() < 2 * wanted_) return;
-  // The sheet holds twice as many moments as wanted: keep every second one, and take half as many
-  // from now on.
-  for (std::size_t i = 1; i < wanted_; ++i) moments_[i] = std::move(moments_[2 * i]);
-  moments_.resize(wanted_);
+  const std::size_t kept = kKeptPerMoment * wanted_;
+  if (moments_.size() < 2 * kept) return;
+  // Keep every second one, and take half as many from now on.
+  for (std::size_t i = 1; i < kept; ++i) moments_[i] = std::move(moments_[2 * i]);
+  moments_.resize(kept);
   stride_ *= 2;
 }
 

@@ -15,6 +15,7 @@
 #include "pipeline/scene/description/scene.h"
 #include "pipeline/scene/description/scene_tables.h"
 #include "pipeline/scene/description/scene_values.h"
+#include "pipeline/scene/meshes/mesh_file.h"
 #include "pipeline/scene/models/limits.h"
 #include "pipeline/tracking/camera/calibration_file.h"
 
@@ -176,8 +177,15 @@ std::vector<std::string> noticesOf(const SceneModel& model) {
   }
   const double scale = glm::length(glm::dvec3(model.attachFromModel[0]));
   const double width = 2.0 * scale * boundingSphere(*model.model).radiusMetres;
-  if (width > kHugeMetres || (width > 0.0 && width < kTinyMetres)) {
-    notices.push_back(fmt::format("{}: is {:.3g} m wide here{}; a scale of {:.2g} makes it 0.2 m",
+  constexpr double kMetresPerMillimetre = 0.001;
+  const double inMillimetres = kMetresPerMillimetre * width;
+  const bool isPlausible = inMillimetres >= kTinyMetres && inMillimetres <= kHugeMetres;
+  if (width > kHugeMetres && isPlausible && file != nullptr && isMeshFile(file->path.string()) &&
+      model.unitMetres == 1.0) {
+    notices.push_back(fmt::format("{}: is {:.3g} m across here; units = \"mm\" makes it {:.3g} m",
+                                  name, width, inMillimetres));
+  } else if (width > kHugeMetres || (width > 0.0 && width < kTinyMetres)) {
+    notices.push_back(fmt::format("{}: is {:.3g} m across here{}; a scale of {:.2g} makes it 0.2 m",
                                   name, width,
                                   file != nullptr ? "" : " (its lengths are in metres)",
                                   0.2 * scale / model.unitMetres / width));

@@ -78,6 +78,17 @@ TEST(TomlTable, TakesOnAndOffForSwitches) {
             "scene.toml:3: c: found \"yes\" (string), allowed: true or false");
 }
 
+TEST(TomlTable, TakesNumbersForWordsThatAreNumbers) {
+  const TomlTable root = parsed("a = 90\nb = \"90\"\nc = 45\nd = true\n");
+  const std::vector<std::string> turns{"0", "90"};
+  EXPECT_EQ(root.optionalChoice("a", turns), 1U);
+  EXPECT_EQ(root.optionalChoice("b", turns), 1U);
+  EXPECT_EQ(thrownBy([&] { root.optionalChoice("c", turns); }),
+            "scene.toml:3: c: found 45 (integer), allowed: 0, 90");
+  EXPECT_EQ(thrownBy([&] { root.optionalChoice("d", turns); }),
+            "scene.toml:4: d: found true (boolean), allowed: 0, 90");
+}
+
 TEST(TomlTable, SaysWhatIsMissing) {
   const TomlTable root = parsed(kScene);
   EXPECT_EQ(thrownBy([&] { root.tables("tag")[1].string("name"); }),

@@ -87,6 +87,7 @@ TEST(CommandLine, PointsToTheHelpOfTheSubcommand) {
   expectRefused({"measure", "--frob"}, "; see pleinair measure --help");
   expectRefused({"measure", "--frames", "0"}, "; see pleinair measure --help");
   expectRefused({"render", "--colour"}, "; see pleinair render --help");
+  expectRefused({"scene", "check"}, "; see pleinair scene check --help");
   expectRefused({"paint"}, "; see pleinair --help");
 }
 

@@ -164,6 +164,16 @@ TEST_F(ConfigurationTest, ALayersOwnLookIsOfTheStyleItNames) {
                                     "allowed: the views of watercolor: finished, camera, ar, "));
 }
 
+TEST_F(ConfigurationTest, ALookOfAnotherStyleChoosesThatStyle) {
+  request_.options = {{"painting.look", "oil", "--look"}};
+  EXPECT_EQ(resolved().painting().style, "painterly");
+  EXPECT_EQ(resolved().origin("painting.style"), "--look");
+  request_.siteFile = write("s.toml", "[painting]\nstyle = \"hatching\"\n");
+  EXPECT_EQ(resolved().painting().style, "painterly") << "of a weaker layer";
+  request_.options.push_back({"painting.style", "watercolor", "--style"});
+  EXPECT_THAT(refusal(), StartsWith("--look: found \"oil\", allowed: the looks of watercolor: "));
+}
+
 TEST_F(ConfigurationTest, EveryLookOfEveryStyleIsTaken) {
   for (const styles::StyleKind* style : styles::styleKinds()) {
     for (const styles::Look& look : style->looks) {

@@ -52,8 +52,8 @@ TEST(SceneCheck, FindsAModelWhoseUpIsY) {
 
 TEST(SceneCheck, NamesModelsThatAreFarTooSmallOrLarge) {
   EXPECT_THAT(sceneWith("scale = 0.001\n").notices,
-              ElementsAre(testing::AllOf(HasSubstr("m wide here"), HasSubstr("makes it 0.2 m"))));
-  EXPECT_THAT(sceneWith("scale = 1000\n").notices, ElementsAre(HasSubstr("m wide here")));
+              ElementsAre(testing::AllOf(HasSubstr("m across here"), HasSubstr("makes it 0.2 m"))));
+  EXPECT_THAT(sceneWith("scale = 1000\n").notices, ElementsAre(HasSubstr("m across here")));
   EXPECT_THAT(sceneWith("").notices, IsEmpty());
 }
 

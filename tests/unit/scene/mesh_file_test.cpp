@@ -180,8 +180,11 @@ TEST_F(MeshFile, GuessesNoUnits) {
 TEST_F(MeshFile, AdvisesAScaleBesideTheUnits) {
   write("box.stl", boxStl());
   const Scene scene = sceneWith("source = \"box.stl\"\nunits = \"m\"\n");
-  EXPECT_THAT(scene.notices,
-              testing::Contains(HasSubstr("is 53.9 m wide here; a scale of 0.0037")));
+  EXPECT_THAT(
+      scene.notices,
+      testing::Contains(HasSubstr("is 53.9 m across here; units = \"mm\" makes it 0.0539 m")));
+  const Scene scaled = sceneWith("source = \"box.stl\"\nunits = \"m\"\nscale = 1000\n");
+  EXPECT_THAT(scaled.notices, testing::Contains(HasSubstr("a scale of 0.0037 makes it 0.2 m")));
   const Scene inches = sceneWith("source = \"box.stl\"\nunits = \"in\"\nscale = 10\n");
   EXPECT_THAT(inches.notices, testing::Contains(HasSubstr("a scale of 0.15 makes it 0.2 m")));
 }
