@@ -227,6 +227,7 @@ int run(const RunOptions& options) {
          .waitsForOutputs = output.wait,
          .showsWaiting = output.waitingPictures,
          .state = output.keepsLastPainting ? stateFolder() : std::filesystem::path(),
+         .health = {.state = stateFolder()},
          .scene = std::move(scene),
          .snapshots = output.snapshots,
          .command = commandOf(options),

@@ -66,6 +66,7 @@ struct RuntimeSettings {
   double maxLatencyMs = 400;
   std::string quality = "auto";  ///< or a level that is kept
   double rate = 0;               ///< frames a second that quality is lowered for; 0: the camera's
+  double heatMargin = 5;         ///< K to the machine's limit that quality is lowered at; 0: never
   std::filesystem::path frameLog = "none";  ///< the file that FrameLogFile writes
 };
 

@@ -21,6 +21,7 @@
 #include "hal/camera.h"
 #include "hal/clock.h"
 #include "hal/keyboards/keyboards.h"
+#include "hal/machine/machine_state.h"
 #include "hal/supervisor/camera_selector.h"
 #include "pipeline/scene/description/scene.h"
 
@@ -46,6 +47,7 @@ struct LiveJob {
   bool showsWaiting = true;      ///< on outputs of kinds that do (hal::OutputTraits)
   /// Where the last painting of such an output is kept, and was by the run before; empty: nowhere.
   std::filesystem::path state;
+  hal::MachinePlaces health;  ///< what tells the state of the machine
   scene::Scene scene;
   std::filesystem::path snapshots;  ///< the folder that snapshots and look files go to
   /// The program and its options, without those that LiveTuning::arguments() gives.

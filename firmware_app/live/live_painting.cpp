@@ -32,6 +32,7 @@
 #include "firmware_app/live/live_overlay.h"
 #include "firmware_app/live/live_painter.h"
 #include "firmware_app/live/live_reporter.h"
+#include "firmware_app/live/machine_health.h"
 #include "firmware_app/live/runtime_rules.h"
 #include "firmware_app/live/service_reporter.h"
 #include "firmware_app/live/snapshot_saver.h"
@@ -70,7 +71,8 @@ class LivePainting {
         supervisor_(*job.selector, *job.clock, {}, job.request),
         pipeline_(supervisor_, *job.clock),
         outputs_(job, pipeline_, reporter_, openFrameLog()),
-        saver_(job.snapshots) {
+        saver_(job.snapshots),
+        health_(job.health, heatRules(job.runtime)) {
     if (job_.procedure != nullptr) {
       machine_ = machinePlaceOf(job_.scene, job_.procedure->procedure());
     }
@@ -159,6 +161,7 @@ class LivePainting {
     followStyle();
     if (job_.reload && ReloadSignal::take()) reload();
     if (service_ && service_->isDue(job_.clock->now())) reportToService();
+    followHeat();
     if (!outputs_.isUpdateDue()) return;
     const auto painting = paintStatus();
     outputs_.update({.camera = pipeline_.capture().status(),
@@ -166,6 +169,14 @@ class LivePainting {
                      .hasPainter = painting.hasPainter,
                      .isRenewing = painting.isRenewing,
                      .painted = painting.painted});
+  }
+
+  /// A hot machine that slowed itself down would lose frames.
+  void followHeat() {
+    const auto advice = health_.update(paintStatus().quality, job_.clock->now());
+    if (!advice) return;
+    if (pipeline() != nullptr) pipeline_.paint().limitQuality(advice->best);
+    if (!advice->notice.empty()) notify(advice->notice, advice->isGood);
   }
 
   /// Another style is another painter, which compiles its shaders first.
@@ -272,6 +283,7 @@ class LivePainting {
   /// Any thread. Before the camera's first frame there are neither outputs nor a painter.
   runtime::RuntimeStatus statusNow() {
     runtime::RuntimeStatus status = pipelineStatus();
+    status.machine = health_.state();
     if (job_.procedure != nullptr) status.procedure = job_.procedure->status();
     return status;
   }
@@ -541,6 +553,7 @@ class LivePainting {
   hal::StreamFormat stream_;  ///< the camera's
   LiveOutputs outputs_;
   SnapshotSaver saver_;
+  MachineHealth health_;
   std::optional<runtime::LiveThreads> threads_;
   std::unique_ptr<hal::HotplugMonitor> hotplug_;  ///< notifies supervisor, outputs and input
   std::atomic<bool> isPipelineMade_ = false;      ///< outputs and paint stage exist

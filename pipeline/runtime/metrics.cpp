@@ -128,6 +128,27 @@ StateReading lumaSource(const CameraPath& path) {
   return state;
 }
 
+/// Unset before the first reading, and where the machine does not tell.
+template <class Read>
+Readings ofMachine(const MetricMoment& moment, Read read) {
+  const std::optional<hal::MachineState>& machine = moment.status.machine;
+  if (!machine) return one({});
+  const auto value = read(*machine);
+  return value ? one(*value) : one({});
+}
+
+template <class Read>
+Readings ofHottest(const MetricMoment& moment, Read read) {
+  return ofMachine(moment, [&](const hal::MachineState& machine) {
+    return machine.hottest ? std::optional(read(*machine.hottest)) : std::nullopt;
+  });
+}
+
+StateReading clockTrust(hal::ClockTrust current) {
+  return {.names = {"synchronized", "unconfirmed", "wrong"},
+          .current = static_cast<std::size_t>(current)};
+}
+
 /// Unset until a frame was painted.
 template <class Read>
 Readings ofPath(const MetricMoment& moment, Read read) {
@@ -242,6 +263,12 @@ std::vector<Metric> paintingMetrics() {
        [](Moment m) { return one(m.status.painting.qualityLowered); }, "quality_lowered_total"},
       {kPainting, "quality_raised", "", kCounter, kNoUnit, "Times that quality was raised.",
        [](Moment m) { return one(m.status.painting.qualityRaised); }, "quality_raised_total"},
+      {kPainting, "quality_limit", "", kState, kNoUnit,
+       "Best quality level that the machine's heat permits.",
+       [](Moment m) {
+         return one(
+             StateReading{.names = m.qualityNames, .current = m.status.painting.bestQuality});
+       }},
       {kPainting, "latency", "", kGauge, kMs, "Latency in force: from capture to the due time.",
        [](Moment m) { return one(m.status.painting.latency); }, "latency_target_seconds"},
       {kPainting, "latency_configured", "", kGauge, kMs, "Latency that is configured.",
@@ -384,6 +411,50 @@ std::vector<Metric> frameMetrics() {
   };
 }
 
+std::vector<Metric> machineMetrics() {
+  return {
+      {kMachine, "sensor", "", kText, kNoUnit, "Temperature sensor that is nearest to its limit.",
+       [](Moment m) {
+         return ofHottest(m, [](const hal::ThermalZone& zone) { return zone.name; });
+       }},
+      {kMachine, "celsius", "", kGauge, kNoUnit, "What it reads.",
+       [](Moment m) {
+         return ofHottest(m, [](const hal::ThermalZone& zone) { return zone.celsius; });
+       }},
+      {kMachine, "limit_celsius", "", kGauge, kNoUnit,
+       "Temperature from which on the machine slows itself down.",
+       [](Moment m) {
+         return ofHottest(m, [](const hal::ThermalZone& zone) { return zone.limitCelsius; });
+       }},
+      {kMachine, "memory_used_bytes", "", kGauge, kNoUnit, "Memory of the program.",
+       [](Moment m) {
+         return ofMachine(m, [](const hal::MachineState& s) { return s.usedBytes; });
+       }},
+      {kMachine, "memory_available_bytes", "", kGauge, kNoUnit, "Memory that it may still take.",
+       [](Moment m) {
+         return ofMachine(m, [](const hal::MachineState& s) { return s.availableBytes; });
+       }},
+      {kMachine, "disk_free_bytes", "", kGauge, kNoUnit,
+       "Free space of the disk where the program keeps its state.",
+       [](Moment m) {
+         return ofMachine(m, [](const hal::MachineState& s) { return s.diskFreeBytes; });
+       }},
+      {kMachine, "clock", "", kState, kNoUnit,
+       "Whether the machine's clock was set by a time server, may be right, or cannot be: then no "
+       "schedule is followed.",
+       [](Moment m) {
+         return ofMachine(
+             m, [](const hal::MachineState& s) { return std::optional(clockTrust(s.clock)); });
+       }},
+      {kMachine, "clock_jumps", "", kCounter, kNoUnit,
+       "Times that the machine's clock went forward or back by 2 s or more.",
+       [](Moment m) {
+         return ofMachine(m,
+                          [](const hal::MachineState& s) { return std::optional(s.clockJumps); });
+       }},
+  };
+}
+
 /// The prefix of a scope's names, in JSON and in Prometheus' format.
 struct ScopeNames {
   std::string_view json;
@@ -402,6 +473,8 @@ ScopeNames namesOf(MetricScope scope) {
       return {"outputs[].", "output_"};
     case kFrames:
       return {"frames.", "frames_"};
+    case kMachine:
+      return {"machine.", "machine_"};
   }
   return {};
 }
@@ -411,8 +484,8 @@ ScopeNames namesOf(MetricScope scope) {
 const std::vector<Metric>& allMetrics() {
   static const std::vector<Metric> kMetrics = [] {
     std::vector<Metric> all;
-    for (const auto& part :
-         {programMetrics(), cameraMetrics(), paintingMetrics(), outputMetrics(), frameMetrics()}) {
+    for (const auto& part : {programMetrics(), cameraMetrics(), paintingMetrics(), outputMetrics(),
+                             frameMetrics(), machineMetrics()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;
