@@ -360,6 +360,9 @@ std::vector<Metric> outputMetrics() {
          const std::optional<hal::Suspension>& suspension = m.output->suspension;
          return suspension ? one(suspension->reason) : one({});
        }},
+      {kOutput, "brightness", "", kGauge, kNoUnit,
+       "Share of their values that images are shown with: less than 1 on a display that is dimmed.",
+       [](Moment m) { return one(m.output->brightness); }},
       {kOutput, "scan_out", "", kState, kNoUnit,
        "How images reach a display's memory: read back and copied, or drawn there by the GPU.",
        [](Moment m) { return scanOutPath(m.output->scanOut); }},
