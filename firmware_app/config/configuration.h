@@ -99,6 +99,7 @@ struct OptionValue {
 struct ConfigurationRequest {
   std::optional<std::string> profile;             ///< --profile: a name or a file
   std::optional<std::filesystem::path> siteFile;  ///< --config
+  std::optional<std::string> siteText;            ///< in place of that file's content
   std::vector<OptionValue> options;
   std::vector<std::string> set;                          ///< --set: "cell_size=8", "camera.rate=15"
   std::vector<config::EnvironmentVariable> environment;  ///< all that begin with PLEINAIR_

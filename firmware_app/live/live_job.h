@@ -59,6 +59,11 @@ struct LiveJob {
   InputMap inputs;                       ///< what else steps through it
   StepCommandQueue* commands = nullptr;  ///< of the status server; null: it takes none
   std::filesystem::path frameLog;        ///< the file that FrameLogFile writes; empty: none
+  /// Shown over the painting all the time, such as what is wrong with a site file; empty: nothing.
+  std::string standingText;
+  std::string siteOrigin;  ///< where the site file in force came from; empty: nowhere
+  /// Whether to end, because another start would be set up differently; null: never.
+  std::function<bool()> isToStartAnew;
   const ServiceManager* serviceManager = nullptr;  ///< that is told of the painting
   /// Reads the configuration again, after ReloadSignal::take(). Throws hal::Failure and
   /// config::ConfigError. Null: the signal is not looked for.

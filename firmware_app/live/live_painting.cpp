@@ -141,7 +141,7 @@ class LivePainting {
     return isPipelineMade_.load(std::memory_order_acquire) ? &pipeline_ : nullptr;
   }
 
-  bool isToEnd() const { return Interrupt::received() != 0 || input_.wantsToQuit(); }
+  bool isToEnd() const { return Interrupt::received() != 0 || input_.wantsToQuit() || startsAnew_; }
 
   /// Shows in windows what is waited for. Returns false where there is nothing left to show it in.
   bool stepWindows() {
@@ -162,6 +162,7 @@ class LivePainting {
     if (job_.reload && ReloadSignal::take()) reload();
     if (service_ && service_->isDue(job_.clock->now())) reportToService();
     followHeat();
+    followSite();
     if (!outputs_.isUpdateDue()) return;
     const auto painting = paintStatus();
     outputs_.update({.camera = pipeline_.capture().status(),
@@ -177,6 +178,13 @@ class LivePainting {
     if (!advice) return;
     if (pipeline() != nullptr) pipeline_.paint().limitQuality(advice->best);
     if (!advice->notice.empty()) notify(advice->notice, advice->isGood);
+  }
+
+  /// A service manager starts the program again, which then reads what has come.
+  void followSite() {
+    if (!job_.isToStartAnew || startsAnew_ || !job_.isToStartAnew()) return;
+    startsAnew_ = true;
+    notify("there is another site.toml: starting anew", true);
   }
 
   /// Another style is another painter, which compiles its shaders first.
@@ -284,6 +292,8 @@ class LivePainting {
   runtime::RuntimeStatus statusNow() {
     runtime::RuntimeStatus status = pipelineStatus();
     status.machine = health_.state();
+    status.siteOrigin = job_.siteOrigin;
+    status.siteProblem = job_.standingText;
     if (job_.procedure != nullptr) status.procedure = job_.procedure->status();
     return status;
   }
@@ -572,6 +582,7 @@ class LivePainting {
   std::atomic<bool> isStopping_ = false;
   std::vector<hal::Error> failures_;   ///< errors of outputs, at the end
   std::optional<hal::Error> failure_;  ///< the error that ended the painting
+  bool startsAnew_ = false;            ///< for another site file
   bool hasBegun_ = false;              ///< frames flow to the outputs
 };
 

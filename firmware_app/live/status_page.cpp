@@ -110,6 +110,13 @@ std::string rowsOf(const runtime::RuntimeStatus& status, const std::string& styl
     rows += row("Output " + output.name, outputText(output));
   }
   if (!status.camera.lastLoss.empty()) rows += row("Last loss", status.camera.lastLoss);
+  if (!status.siteOrigin.empty()) rows += row("Set up by", status.siteOrigin);
+  if (!status.siteProblem.empty()) rows += row("Setting up", status.siteProblem);
+  if (status.machine) {
+    const std::string text = machineText(*status.machine);
+    if (!text.empty()) rows += row("Machine", text);
+    rows += row("Clock", clockText(*status.machine));
+  }
   return rows + row("Running for", uptimeText(status.uptime));
 }
 

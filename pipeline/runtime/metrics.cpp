@@ -14,6 +14,10 @@ Readings one(MetricValue value) {
   return readings;
 }
 
+Readings textOf(const std::string& text) {
+  return text.empty() ? one({}) : one(text);
+}
+
 Readings textOf(const std::optional<hal::Error>& error) {
   return error ? one(error->message()) : one({});
 }
@@ -171,6 +175,12 @@ std::vector<Metric> programMetrics() {
       {kProgram, "healthy", "", kGauge, kNoUnit,
        "Whether the camera streams and every output takes images, as in /healthz.",
        [](Moment m) { return one(m.status.isHealthy()); }},
+      {kProgram, "site", "", kText, kNoUnit,
+       "Place that the site file in force came from, where the machine was set up by one.",
+       [](Moment m) { return textOf(m.status.siteOrigin); }},
+      {kProgram, "site_problem", "", kText, kNoUnit,
+       "What the screen says about setting it up, such as what is wrong with a site file.",
+       [](Moment m) { return textOf(m.status.siteProblem); }},
       {kProgram, "procedure", "", kText, kNoUnit, "Name of the procedure that is carried out.",
        [](Moment m) { return ofProcedure(m, &ProcedureStatus::name); }},
       {kProgram, "procedure_step", "", kText, kNoUnit, "Id of its current step, or end.",

@@ -21,6 +21,8 @@ struct RuntimeStatus {
   PaintStage::Status painting;
   std::vector<OutputStage::Status> outputs;
   LedgerCounts ledger;
+  std::string siteOrigin;   ///< where the configuration in force came from; empty: not known
+  std::string siteProblem;  ///< what is wrong with it, as it is shown; empty: nothing
   std::optional<hal::MachineState> machine;  ///< as of the last reading
   std::optional<ProcedureStatus> procedure;  ///< where one is carried out
 
