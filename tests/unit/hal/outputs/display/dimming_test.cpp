@@ -1,7 +1,9 @@
 // When a display is darker, and how the fade goes.
 #include "hal/outputs/display/dimming.h"
 
+#include <algorithm>
 #include <chrono>
+#include <string>
 
 #include "tests/unit/hal/outputs/display/display_test.h"
 
@@ -23,6 +25,22 @@ TEST(DimmingLevel, IsANumberFromZeroToOne) {
   for (const char* wrong : {"", "1.01", "-0.1", "half", "0.5 ", "50%", "nan", "inf"}) {
     EXPECT_EQ(DimmingRules::parsedLevel(wrong), std::nullopt) << wrong;
   }
+}
+
+TEST(DimmingKeys, RefuseWhatIsNoTimeAndNoLevel) {
+  const hal::OutputKind kind = hal::displayKind();
+  const auto takes = [&kind](const std::string& key, const std::string& value) {
+    const auto option = std::ranges::find(kind.options, key, &hal::OutputOption::name);
+    return option != kind.options.end() && option->takes(option->initial) && option->takes(value);
+  };
+  EXPECT_TRUE(takes("dim", "20:00-23:00"));
+  EXPECT_TRUE(takes("dim", "22:30-06:00")) << "over midnight";
+  EXPECT_TRUE(takes("dim", "never"));
+  for (const char* wrong : {"", "20-23", "20:00", "20:00-20:00", "24:00-01:00", "always"}) {
+    EXPECT_FALSE(takes("dim", wrong)) << wrong;
+  }
+  EXPECT_TRUE(takes("dim_level", "0.15"));
+  EXPECT_FALSE(takes("dim_level", "15"));
 }
 
 TEST(DimmerTest, FadesInAndOutOverFiveSeconds) {
