@@ -217,6 +217,10 @@ class SurfaceOutput : public Output {
   /// ended as kSkipped. Valid until the next call.
   virtual const Suspension* suspension() const { return nullptr; }
 
+  /// The share of their values that pictures are to be shown with, from 0 to 1: whoever fills a
+  /// surface multiplies them. It changes from call to call while a display is faded.
+  virtual double brightness() const { return 1.0; }
+
   /// Somebody is there: a key was pressed, or something moved. A display that is off goes on.
   virtual void noteActivity() {}
 };

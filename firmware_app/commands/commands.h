@@ -115,6 +115,7 @@ struct RunOptions {
   std::optional<std::uint64_t> frames;  ///< default: until the user ends it
   std::filesystem::path shaderDirectory;
   std::string program;  ///< version of this program, for records
+  std::optional<std::filesystem::path> provisioning;  ///< a folder with a site.toml
 };
 
 /// Paints a camera live: `pleinair run`. Throws hal::Failure and config::ConfigError. Returns the
@@ -126,6 +127,7 @@ struct RescueOptions {
   std::string title = "The painting will be back soon";
   std::string detail;
   std::optional<hal::Duration> time;  ///< default: until a signal
+  bool isProvisioned = false;         ///< by the last good site file of `pleinair run`
 };
 
 /// Shows a picture with a text on the displays of the configuration, drawn by the processor:

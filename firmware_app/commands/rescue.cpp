@@ -13,6 +13,7 @@
 #include "firmware_app/live/last_painting.h"
 #include "firmware_app/live/rescue_picture.h"
 #include "firmware_app/live/service_reporter.h"
+#include "firmware_app/provisioning/provisioning.h"
 #include "firmware_app/service_manager/service_manager.h"
 #include "hal/clock.h"
 #include "hal/console/virtual_terminal.h"
@@ -77,7 +78,9 @@ int showRescue(const RescueOptions& options) {
   const ServiceManager manager(takeServiceEnvironment());
   ServiceReporter reporter(manager);
   hal::SteadyClock clock;
-  const RescueJob job = rescueJobOf(options.configuration);
+  ConfigurationRequest request = options.configuration;
+  if (options.isProvisioned) request.siteFile = keptSiteFile(stateFolder());
+  const RescueJob job = rescueJobOf(request);
   if (!job.problem.empty()) spdlog::warn("{}", job.problem);
   const std::unique_ptr<hal::VirtualTerminal> terminal = takeConsole();
   RescuePicture picture(

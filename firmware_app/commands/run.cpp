@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "firmware_app/cli/interrupt.h"
 #include "firmware_app/cli/reload_signal.h"
@@ -22,6 +23,7 @@
 #include "firmware_app/live/live_painting.h"
 #include "firmware_app/live/step_inputs.h"
 #include "firmware_app/overlay/machine.h"
+#include "firmware_app/provisioning/provisioning.h"
 #include "firmware_app/service_manager/passed_socket.h"
 #include "firmware_app/service_manager/service_manager.h"
 #include "firmware_app/status_server/listen_address.h"
@@ -100,6 +102,7 @@ std::vector<std::string> commandOf(const RunOptions& options) {
                          key == kStyleKey || key == kLookKey || key == kViewKey;
     if (!isTuned) add("--set", setting);
   }
+  if (options.provisioning) add("--provisioning", options.provisioning->string());
   if (!options.shaderDirectory.empty()) add("--shaders", options.shaderDirectory.string());
   return words;
 }
@@ -126,16 +129,18 @@ std::map<std::string, config::ParameterValues> parametersOfStyles(
 /// What keys step through; nothing where the configuration names no procedure.
 std::unique_ptr<LiveProcedure> configuredProcedure(const Configuration& configuration,
                                                    const std::string& program,
-                                                   const hal::Clock& clock) {
+                                                   const hal::Clock& clock,
+                                                   bool keepsRecords = true) {
   const ProcedureSettings settings = configuration.procedure();
   if (settings.folder == kNoFile) return nullptr;
   const bool hasRecords = settings.records != kNoFile;
   if (hasRecords) requireFolder(settings.records);
+  const bool records = hasRecords && keepsRecords;
   return std::make_unique<LiveProcedure>(
       LiveProcedureOptions{
           .folder = settings.folder,
           .language = settings.language == "default" ? std::string() : settings.language,
-          .records = hasRecords ? settings.records : std::filesystem::path(),
+          .records = records ? settings.records : std::filesystem::path(),
           .operatorName =
               settings.operatorName == "unnamed" ? std::string() : settings.operatorName,
           .workOrder = settings.workOrder == "none" ? std::string() : settings.workOrder,
@@ -167,6 +172,85 @@ void refuseCardsOf(const InputMap& inputs, const scene::Scene& scene) {
   }
 }
 
+/// Files beside a site file that was copied must stay as they are: by them the copy is known.
+void refuseWritingBeside(const Configuration& configuration, const std::filesystem::path& site) {
+  const auto check = [&](std::string_view key, const std::filesystem::path& path) {
+    const std::filesystem::path within = path.lexically_relative(site.parent_path());
+    if (within.empty() || *within.begin() == "..") return;
+    throw configuration.errorAt(key, "found a path beside site.toml, where nothing is written",
+                                "an absolute path, such as /var/lib/pleinair/NAME");
+  };
+  const OutputSettings output = configuration.output();
+  for (const std::filesystem::path& each : output.targets) check(kTargetsKey, each);
+  check("output.snapshots", output.snapshots);
+  check("procedure.records", configuration.procedure().records);
+  check("runtime.frame_log", configuration.runtime().frameLog);
+}
+
+/// Throws for what would keep a painting from being begun, whatever devices there are. The request
+/// names a site file.
+void checkForPainting(const ConfigurationRequest& request, const RunOptions& options) {
+  const Configuration configuration(request);
+  configuration.attributing([&] {
+    refuseWritingBeside(configuration, request.siteFile.value());
+    scene::Scene scene = configuredScene(configuration);
+    refuseSlipOfCamera(configuration);
+    refuseCollisionsOf(configuration, scene);
+    requireFolder(configuration.output().snapshots);
+    hal::SteppedClock clock;
+    const auto procedure = configuredProcedure(configuration, options.program, clock, false);
+    placedMachine(configuration, procedure.get(), scene);
+    refuseCardsOf(configuredInputMap(configuration), scene);
+    makeCameraSelector(configuredCamera(configuration), clock);
+    startParameters(configuredPainting(configuration, {}));
+    const OutputSettings output = configuration.output();
+    for (const std::string& target : targetsOf(output)) {
+      hal::orThrow(hal::openOutput(target, output.options));
+    }
+  });
+}
+
+/// A site file that a person without a shell has given, where nobody with one did.
+struct SiteSetup {
+  Provisioned provisioned;
+  std::string text;                  ///< for screens
+  std::unique_ptr<SiteWatch> watch;  ///< null where nobody would start the program again
+};
+
+void reportSetup(const SiteSetup& setup) {
+  const Provisioned& provisioned = setup.provisioned;
+  if (!provisioned.origin.empty()) spdlog::info("set up by {}", provisioned.origin);
+  for (const std::string& each : provisioned.problems) {
+    spdlog::warn("{}: {}", provisioned.found.empty() ? "kept" : provisioned.found, each);
+  }
+  if (provisioned.problems.empty() && !setup.text.empty()) spdlog::info("not set up yet");
+}
+
+std::optional<SiteSetup> provisionedSite(const RunOptions& options, ConfigurationRequest& request,
+                                         bool isService) {
+  const bool isGiven =
+      request.siteFile || std::ranges::any_of(request.environment, [](const auto& each) {
+        return each.name == "PLEINAIR_CONFIG" && !each.value.empty();
+      });
+  const ProvisioningPlaces places = ProvisioningPlaces::of(options.provisioning, stateFolder());
+  if (isGiven || places.folders.empty()) return std::nullopt;
+  SiteSetup setup;
+  if (isService) setup.watch = std::make_unique<SiteWatch>(places);
+  setup.provisioned = provision(
+      places, [&](const std::filesystem::path& siteFile, const std::optional<std::string>& text) {
+        ConfigurationRequest candidate = request;
+        candidate.siteFile = siteFile;
+        candidate.siteText = text;
+        checkForPainting(candidate, options);
+      });
+  std::error_code ignored;
+  const bool hasOther = std::filesystem::exists(request.defaultSiteFile, ignored);
+  setup.text = provisioningText(setup.provisioned, hasOther);
+  reportSetup(setup);
+  if (setup.provisioned.siteFile) request.siteFile = setup.provisioned.siteFile;
+  return setup;
+}
+
 /// The server's thread.
 hal::Result<void> putCommand(StepCommandQueue& commands, std::string_view text) {
   auto command = procedure::parseStepCommand(text);
@@ -183,7 +267,9 @@ int run(const RunOptions& options) {
   std::optional<ReloadSignal> reloadSignal;
   if (serviceManager.isThere()) reloadSignal.emplace();
   hal::FileDescriptor statusSocket = takePassedSocket();
-  const Configuration configuration(options.configuration);
+  ConfigurationRequest request = options.configuration;
+  const std::optional<SiteSetup> site = provisionedSite(options, request, serviceManager.isThere());
+  const Configuration configuration(request);
   return configuration.attributing([&] {
     scene::Scene scene = configuredScene(configuration);
     const OutputSettings output = configuration.output();
@@ -227,6 +313,7 @@ int run(const RunOptions& options) {
          .waitsForOutputs = output.wait,
          .showsWaiting = output.waitingPictures,
          .state = output.keepsLastPainting ? stateFolder() : std::filesystem::path(),
+         .health = {.state = stateFolder()},
          .scene = std::move(scene),
          .snapshots = output.snapshots,
          .command = commandOf(options),
@@ -237,10 +324,13 @@ int run(const RunOptions& options) {
          .inputs = inputs,
          .commands = token.empty() ? nullptr : &commands,
          .frameLog = frameLogOf(configuration),
+         .standingText = site ? site->text : std::string(),
+         .siteOrigin = site ? site->provisioned.origin : std::string(),
+         .isToStartAnew = site && site->watch
+                              ? std::function<bool()>([&site] { return site->watch->hasChanged(); })
+                              : nullptr,
          .serviceManager = serviceManager.isThere() ? &serviceManager : nullptr,
-         .reload = [&]() -> Reload {
-           return reloaded(options.configuration, configuration, painting);
-         }});
+         .reload = [&]() -> Reload { return reloaded(request, configuration, painting); }});
   });
 }
 

@@ -46,8 +46,13 @@ struct SiteFile {
 };
 
 std::optional<SiteFile> readSiteFile(const ConfigurationRequest& request) {
-  if (request.siteFile)
-    return SiteFile{*request.siteFile, TomlDocument::parseFile(*request.siteFile)};
+  if (request.siteFile) {
+    const fs::path& path = *request.siteFile;
+    return SiteFile{
+        path, request.siteText
+                  ? TomlDocument::parseText(*request.siteText, path.string(), path.parent_path())
+                  : TomlDocument::parseFile(path)};
+  }
   const auto variable =
       std::ranges::find(request.environment, kSiteFileVariable, &EnvironmentVariable::name);
   if (variable != request.environment.end()) {

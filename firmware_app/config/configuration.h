@@ -66,6 +66,7 @@ struct RuntimeSettings {
   double maxLatencyMs = 400;
   std::string quality = "auto";  ///< or a level that is kept
   double rate = 0;               ///< frames a second that quality is lowered for; 0: the camera's
+  double heatMargin = 5;         ///< K to the machine's limit that quality is lowered at; 0: never
   std::filesystem::path frameLog = "none";  ///< the file that FrameLogFile writes
 };
 
@@ -98,6 +99,7 @@ struct OptionValue {
 struct ConfigurationRequest {
   std::optional<std::string> profile;             ///< --profile: a name or a file
   std::optional<std::filesystem::path> siteFile;  ///< --config
+  std::optional<std::string> siteText;            ///< in place of that file's content
   std::vector<OptionValue> options;
   std::vector<std::string> set;                          ///< --set: "cell_size=8", "camera.rate=15"
   std::vector<config::EnvironmentVariable> environment;  ///< all that begin with PLEINAIR_

@@ -225,6 +225,10 @@ const ParameterTable<RuntimeSettings>& runtimeTable() {
       numberParameter("rate", &R::rate, {.min = 0, .max = 240, .unit = "frames a second"},
                       "Frame rate that quality is lowered for; 0: the camera's.",
                       TakesEffect::kRestart),
+      numberParameter("heat_margin", &R::heatMargin, {.min = 0, .max = 40, .unit = "K"},
+                      "How near a sensor may come to the temperature from which on the machine "
+                      "slows itself down before quality is lowered; 0: heat does not matter.",
+                      TakesEffect::kRestart),
       pathParameter("frame_log", &R::frameLog, {std::string(kNoFile)},
                     "A file (CSV) that gets a row for each frame of each output: when it was due, "
                     "when it was shown, at which refresh, or why not.")};

@@ -162,17 +162,21 @@ hal::Result<void> LiveInput::updateWindow(runtime::LivePipeline* pipeline, doubl
   if (now - captioned_ < kCaptionInterval) return {};
   captioned_ = now;
   // Until there is a painting, which has it in its overlay.
-  if (job_.procedure != nullptr) {
-    window_->pin(controls_.overlay() ? std::string() : job_.procedure->text());
-  }
+  const bool hasStep = job_.procedure != nullptr && !controls_.overlay();
+  window_->pin(pinnedText(hasStep ? job_.procedure->text() : std::string()));
   return window_->update(framesPerSecond, framesPerSecond > kMinCaptionRate);
+}
+
+std::string LiveInput::pinnedText(const std::string& step) const {
+  if (step.empty() || job_.standingText.empty()) return step + job_.standingText;
+  return step + "\n\n" + job_.standingText;
 }
 
 void LiveInput::updateDisplays(const std::vector<runtime::OutputStage*>& displays) {
   const hal::TimePoint now = job_.clock->now();
   if (displays.empty() || now - displaysCaptioned_ < kCaptionInterval) return;
   displaysCaptioned_ = now;
-  if (job_.procedure != nullptr) displayCaption_.pin(job_.procedure->text());
+  displayCaption_.pin(pinnedText(job_.procedure != nullptr ? job_.procedure->text() : ""));
   displayCaptions_.update(displays, displayCaption_);
 }
 

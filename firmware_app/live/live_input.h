@@ -77,6 +77,7 @@ class LiveInput {
   bool handleKeys(runtime::LivePipeline* pipeline);
   bool handleSteps();
   void handle(const LiveRequests& requests);
+  std::string pinnedText(const std::string& step) const;
 
   const LiveJob& job_;
   LiveControls& controls_;

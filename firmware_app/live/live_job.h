@@ -21,6 +21,7 @@
 #include "hal/camera.h"
 #include "hal/clock.h"
 #include "hal/keyboards/keyboards.h"
+#include "hal/machine/machine_state.h"
 #include "hal/supervisor/camera_selector.h"
 #include "pipeline/scene/description/scene.h"
 
@@ -46,6 +47,7 @@ struct LiveJob {
   bool showsWaiting = true;      ///< on outputs of kinds that do (hal::OutputTraits)
   /// Where the last painting of such an output is kept, and was by the run before; empty: nowhere.
   std::filesystem::path state;
+  hal::MachinePlaces health;  ///< what tells the state of the machine
   scene::Scene scene;
   std::filesystem::path snapshots;  ///< the folder that snapshots and look files go to
   /// The program and its options, without those that LiveTuning::arguments() gives.
@@ -57,6 +59,11 @@ struct LiveJob {
   InputMap inputs;                       ///< what else steps through it
   StepCommandQueue* commands = nullptr;  ///< of the status server; null: it takes none
   std::filesystem::path frameLog;        ///< the file that FrameLogFile writes; empty: none
+  /// Shown over the painting all the time, such as what is wrong with a site file; empty: nothing.
+  std::string standingText;
+  std::string siteOrigin;  ///< where the site file in force came from; empty: nowhere
+  /// Whether to end, because another start would be set up differently; null: never.
+  std::function<bool()> isToStartAnew;
   const ServiceManager* serviceManager = nullptr;  ///< that is told of the painting
   /// Reads the configuration again, after ReloadSignal::take(). Throws hal::Failure and
   /// config::ConfigError. Null: the signal is not looked for.

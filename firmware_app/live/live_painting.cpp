@@ -32,6 +32,7 @@
 #include "firmware_app/live/live_overlay.h"
 #include "firmware_app/live/live_painter.h"
 #include "firmware_app/live/live_reporter.h"
+#include "firmware_app/live/machine_health.h"
 #include "firmware_app/live/runtime_rules.h"
 #include "firmware_app/live/service_reporter.h"
 #include "firmware_app/live/snapshot_saver.h"
@@ -70,7 +71,8 @@ class LivePainting {
         supervisor_(*job.selector, *job.clock, {}, job.request),
         pipeline_(supervisor_, *job.clock),
         outputs_(job, pipeline_, reporter_, openFrameLog()),
-        saver_(job.snapshots) {
+        saver_(job.snapshots),
+        health_(job.health, heatRules(job.runtime)) {
     if (job_.machine) machine_ = machinePlaceOf(job_.scene.models[*job_.machine]);
     if (!job.serviceManager) return;
     service_.emplace(*job.serviceManager);
@@ -137,7 +139,7 @@ class LivePainting {
     return isPipelineMade_.load(std::memory_order_acquire) ? &pipeline_ : nullptr;
   }
 
-  bool isToEnd() const { return Interrupt::received() != 0 || input_.wantsToQuit(); }
+  bool isToEnd() const { return Interrupt::received() != 0 || input_.wantsToQuit() || startsAnew_; }
 
   /// Shows in windows what is waited for. Returns false where there is nothing left to show it in.
   bool stepWindows() {
@@ -157,6 +159,8 @@ class LivePainting {
     followStyle();
     if (job_.reload && ReloadSignal::take()) reload();
     if (service_ && service_->isDue(job_.clock->now())) reportToService();
+    followHeat();
+    followSite();
     if (!outputs_.isUpdateDue()) return;
     const auto painting = paintStatus();
     outputs_.update({.camera = pipeline_.capture().status(),
@@ -164,6 +168,21 @@ class LivePainting {
                      .hasPainter = painting.hasPainter,
                      .isRenewing = painting.isRenewing,
                      .painted = painting.painted});
+  }
+
+  /// A hot machine that slowed itself down would lose frames.
+  void followHeat() {
+    const auto advice = health_.update(paintStatus().quality, job_.clock->now());
+    if (!advice) return;
+    if (pipeline() != nullptr) pipeline_.paint().limitQuality(advice->best);
+    if (!advice->notice.empty()) notify(advice->notice, advice->isGood);
+  }
+
+  /// A service manager starts the program again, which then reads what has come.
+  void followSite() {
+    if (!job_.isToStartAnew || startsAnew_ || !job_.isToStartAnew()) return;
+    startsAnew_ = true;
+    notify("there is another site.toml: starting anew", true);
   }
 
   /// Another style is another painter, which compiles its shaders first.
@@ -270,6 +289,9 @@ class LivePainting {
   /// Any thread. Before the camera's first frame there are neither outputs nor a painter.
   runtime::RuntimeStatus statusNow() {
     runtime::RuntimeStatus status = pipelineStatus();
+    status.machine = health_.state();
+    status.siteOrigin = job_.siteOrigin;
+    status.siteProblem = job_.standingText;
     if (job_.procedure != nullptr) status.procedure = job_.procedure->status();
     return status;
   }
@@ -541,6 +563,7 @@ class LivePainting {
   hal::StreamFormat stream_;  ///< the camera's
   LiveOutputs outputs_;
   SnapshotSaver saver_;
+  MachineHealth health_;
   std::optional<runtime::LiveThreads> threads_;
   std::unique_ptr<hal::HotplugMonitor> hotplug_;  ///< notifies supervisor, outputs and input
   std::atomic<bool> isPipelineMade_ = false;      ///< outputs and paint stage exist
@@ -559,6 +582,7 @@ class LivePainting {
   std::atomic<bool> isStopping_ = false;
   std::vector<hal::Error> failures_;   ///< errors of outputs, at the end
   std::optional<hal::Error> failure_;  ///< the error that ended the painting
+  bool startsAnew_ = false;            ///< for another site file
   bool hasBegun_ = false;              ///< frames flow to the outputs
 };
 

@@ -45,6 +45,12 @@ runtime::PaintStageOptions paintRules(const RuntimeSettings& settings,
   return options;
 }
 
+runtime::HeatRules heatRules(const RuntimeSettings& settings) {
+  const std::vector<std::string> names = qualityNames();
+  const bool isFixed = std::ranges::find(names, settings.quality) != names.end();
+  return {.levels = isFixed ? 1 : names.size(), .marginKelvin = settings.heatMargin};
+}
+
 runtime::OutputStageOptions outputRules(const std::string& target, const OutputOpener& open,
                                         const RuntimeSettings& settings,
                                         const hal::StreamFormat& stream) {

@@ -8,6 +8,7 @@
 #include "firmware_app/config/configuration.h"
 #include "hal/camera.h"
 #include "hal/outputs/registry.h"
+#include "pipeline/runtime/heat_guard.h"
 #include "pipeline/runtime/output_stage.h"
 #include "pipeline/runtime/paint_stage.h"
 
@@ -21,6 +22,9 @@ std::vector<std::string> qualityNames();
 /// Rules of quality, latency and time budget for a camera's stream.
 runtime::PaintStageOptions paintRules(const RuntimeSettings& settings,
                                       const hal::StreamFormat& stream);
+
+/// Rules of what heat does to the quality.
+runtime::HeatRules heatRules(const RuntimeSettings& settings);
 
 /// Opens an output, not started, by its target, as hal::openOutput() does.
 using OutputOpener =

@@ -41,19 +41,61 @@ std::string uptimeText(hal::Duration uptime) {
   return fmt::format("{} days, {}:{:02} h", minutes / 1440, minutes / 60 % 24, minutes % 60);
 }
 
+std::string bytesText(std::uint64_t bytes) {
+  constexpr double kMega = 1e6;
+  constexpr double kGiga = 1e9;
+  const auto amount = static_cast<double>(bytes);
+  return amount < kGiga ? fmt::format("{:.0f} MB", amount / kMega)
+                        : fmt::format("{:.1f} GB", amount / kGiga);
+}
+
+std::string machineText(const hal::MachineState& machine) {
+  std::string text;
+  const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
+  if (const auto& zone = machine.hottest) {
+    add(fmt::format("{} at {:.0f} °C (slows down from {:.0f} °C on)", zone->name, zone->celsius,
+                    zone->limitCelsius));
+  }
+  if (machine.usedBytes) add(bytesText(*machine.usedBytes) + " of memory used");
+  if (machine.availableBytes) add(bytesText(*machine.availableBytes) + " available");
+  if (machine.diskFreeBytes) add(bytesText(*machine.diskFreeBytes) + " of disk free");
+  return text;
+}
+
+std::string clockText(const hal::MachineState& machine) {
+  std::string text = machine.clock == hal::ClockTrust::kSynchronized ? "synchronized"
+                     : machine.clock == hal::ClockTrust::kUnconfirmed
+                         ? "not confirmed by a time server"
+                         : "wrong: no schedule is followed";
+  if (machine.clockJumps > 0) text += fmt::format("; jumped {} times", machine.clockJumps);
+  return text;
+}
+
 std::string rowsOf(const runtime::RuntimeStatus& status, const std::string& style,
                    const std::vector<std::string>& qualities) {
   const runtime::PaintStage::Status& painting = status.painting;
   std::string rows = row("Camera", cameraText(status.camera)) + row("Style", style);
   if (painting.hasPainter && painting.quality < qualities.size()) {
-    rows += row("Painting", fmt::format("{:.1f} frames a second, quality {}, {:.0f} ms latency",
-                                        painting.perSecond, qualities[painting.quality],
-                                        hal::toMilliseconds(painting.latency)));
+    std::string text =
+        fmt::format("{:.1f} frames a second, quality {}, {:.0f} ms latency", painting.perSecond,
+                    qualities[painting.quality], hal::toMilliseconds(painting.latency));
+    if (painting.bestQuality > 0 && painting.bestQuality < qualities.size()) {
+      text +=
+          fmt::format("; at most {} until the machine has cooled", qualities[painting.bestQuality]);
+    }
+    rows += row("Painting", text);
   }
   for (const runtime::OutputStage::Status& output : status.outputs) {
     rows += row("Output " + output.name, outputText(output));
   }
   if (!status.camera.lastLoss.empty()) rows += row("Last loss", status.camera.lastLoss);
+  if (!status.siteOrigin.empty()) rows += row("Set up by", status.siteOrigin);
+  if (!status.siteProblem.empty()) rows += row("Setting up", status.siteProblem);
+  if (status.machine) {
+    const std::string text = machineText(*status.machine);
+    if (!text.empty()) rows += row("Machine", text);
+    rows += row("Clock", clockText(*status.machine));
+  }
   return rows + row("Running for", uptimeText(status.uptime));
 }
 

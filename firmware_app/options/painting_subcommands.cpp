@@ -207,6 +207,12 @@ void addRun(CLI::App& app, RunOptions& options, std::function<int()>& chosen) {
       .add_option("--shaders", options.shaderDirectory,
                   "a copy of the source tree whose shaders replace the built-in ones")
       ->type_name("DIR");
+  command
+      .add_option("--provisioning", options.provisioning,
+                  "a folder with a site.toml and what it names, such as a mounted partition; the "
+                  "last good one is kept, and what is wrong is shown (docs/appliance.md)")
+      ->excludes(command.get_option("--config"))
+      ->type_name("DIR");
   command.footer("In the window, h lists the keys.");
   refuseEmptyValues(command);
   command.callback([&] { chosen = [&options] { return run(options); }; });
@@ -232,6 +238,10 @@ void addRescue(CLI::App& app, RescueOptions& options, std::function<int()>& chos
           "end after this time (default: at a signal)")
       ->type_name("N");
   addConfiguration(command, options.configuration);
+  command
+      .add_flag("--provisioned", options.isProvisioned,
+                "use the last good site file of `pleinair run --provisioning`")
+      ->excludes(command.get_option("--config"));
   refuseEmptyValues(command);
   command.callback([&] { chosen = [&options] { return showRescue(options); }; });
 }

@@ -14,6 +14,10 @@ Readings one(MetricValue value) {
   return readings;
 }
 
+Readings textOf(const std::string& text) {
+  return text.empty() ? one({}) : one(text);
+}
+
 Readings textOf(const std::optional<hal::Error>& error) {
   return error ? one(error->message()) : one({});
 }
@@ -128,6 +132,27 @@ StateReading lumaSource(const CameraPath& path) {
   return state;
 }
 
+/// Unset before the first reading, and where the machine does not tell.
+template <class Read>
+Readings ofMachine(const MetricMoment& moment, Read read) {
+  const std::optional<hal::MachineState>& machine = moment.status.machine;
+  if (!machine) return one({});
+  const auto value = read(*machine);
+  return value ? one(*value) : one({});
+}
+
+template <class Read>
+Readings ofHottest(const MetricMoment& moment, Read read) {
+  return ofMachine(moment, [&](const hal::MachineState& machine) {
+    return machine.hottest ? std::optional(read(*machine.hottest)) : std::nullopt;
+  });
+}
+
+StateReading clockTrust(hal::ClockTrust current) {
+  return {.names = {"synchronized", "unconfirmed", "wrong"},
+          .current = static_cast<std::size_t>(current)};
+}
+
 /// Unset until a frame was painted.
 template <class Read>
 Readings ofPath(const MetricMoment& moment, Read read) {
@@ -150,6 +175,12 @@ std::vector<Metric> programMetrics() {
       {kProgram, "healthy", "", kGauge, kNoUnit,
        "Whether the camera streams and every output takes images, as in /healthz.",
        [](Moment m) { return one(m.status.isHealthy()); }},
+      {kProgram, "site", "", kText, kNoUnit,
+       "Place that the site file in force came from, where the machine was set up by one.",
+       [](Moment m) { return textOf(m.status.siteOrigin); }},
+      {kProgram, "site_problem", "", kText, kNoUnit,
+       "What the screen says about setting it up, such as what is wrong with a site file.",
+       [](Moment m) { return textOf(m.status.siteProblem); }},
       {kProgram, "procedure", "", kText, kNoUnit, "Name of the procedure that is carried out.",
        [](Moment m) { return ofProcedure(m, &ProcedureStatus::name); }},
       {kProgram, "procedure_step", "", kText, kNoUnit, "Id of its current step, or end.",
@@ -242,6 +273,12 @@ std::vector<Metric> paintingMetrics() {
        [](Moment m) { return one(m.status.painting.qualityLowered); }, "quality_lowered_total"},
       {kPainting, "quality_raised", "", kCounter, kNoUnit, "Times that quality was raised.",
        [](Moment m) { return one(m.status.painting.qualityRaised); }, "quality_raised_total"},
+      {kPainting, "quality_limit", "", kState, kNoUnit,
+       "Best quality level that the machine's heat permits.",
+       [](Moment m) {
+         return one(
+             StateReading{.names = m.qualityNames, .current = m.status.painting.bestQuality});
+       }},
       {kPainting, "latency", "", kGauge, kMs, "Latency in force: from capture to the due time.",
        [](Moment m) { return one(m.status.painting.latency); }, "latency_target_seconds"},
       {kPainting, "latency_configured", "", kGauge, kMs, "Latency that is configured.",
@@ -333,6 +370,9 @@ std::vector<Metric> outputMetrics() {
          const std::optional<hal::Suspension>& suspension = m.output->suspension;
          return suspension ? one(suspension->reason) : one({});
        }},
+      {kOutput, "brightness", "", kGauge, kNoUnit,
+       "Share of their values that images are shown with: less than 1 on a display that is dimmed.",
+       [](Moment m) { return one(m.output->brightness); }},
       {kOutput, "scan_out", "", kState, kNoUnit,
        "How images reach a display's memory: read back and copied, or drawn there by the GPU.",
        [](Moment m) { return scanOutPath(m.output->scanOut); }},
@@ -384,6 +424,50 @@ std::vector<Metric> frameMetrics() {
   };
 }
 
+std::vector<Metric> machineMetrics() {
+  return {
+      {kMachine, "sensor", "", kText, kNoUnit, "Temperature sensor that is nearest to its limit.",
+       [](Moment m) {
+         return ofHottest(m, [](const hal::ThermalZone& zone) { return zone.name; });
+       }},
+      {kMachine, "celsius", "", kGauge, kNoUnit, "What it reads.",
+       [](Moment m) {
+         return ofHottest(m, [](const hal::ThermalZone& zone) { return zone.celsius; });
+       }},
+      {kMachine, "limit_celsius", "", kGauge, kNoUnit,
+       "Temperature from which on the machine slows itself down.",
+       [](Moment m) {
+         return ofHottest(m, [](const hal::ThermalZone& zone) { return zone.limitCelsius; });
+       }},
+      {kMachine, "memory_used_bytes", "", kGauge, kNoUnit, "Memory of the program.",
+       [](Moment m) {
+         return ofMachine(m, [](const hal::MachineState& s) { return s.usedBytes; });
+       }},
+      {kMachine, "memory_available_bytes", "", kGauge, kNoUnit, "Memory that it may still take.",
+       [](Moment m) {
+         return ofMachine(m, [](const hal::MachineState& s) { return s.availableBytes; });
+       }},
+      {kMachine, "disk_free_bytes", "", kGauge, kNoUnit,
+       "Free space of the disk where the program keeps its state.",
+       [](Moment m) {
+         return ofMachine(m, [](const hal::MachineState& s) { return s.diskFreeBytes; });
+       }},
+      {kMachine, "clock", "", kState, kNoUnit,
+       "Whether the machine's clock was set by a time server, may be right, or cannot be: then no "
+       "schedule is followed.",
+       [](Moment m) {
+         return ofMachine(
+             m, [](const hal::MachineState& s) { return std::optional(clockTrust(s.clock)); });
+       }},
+      {kMachine, "clock_jumps", "", kCounter, kNoUnit,
+       "Times that the machine's clock went forward or back by 2 s or more.",
+       [](Moment m) {
+         return ofMachine(m,
+                          [](const hal::MachineState& s) { return std::optional(s.clockJumps); });
+       }},
+  };
+}
+
 /// The prefix of a scope's names, in JSON and in Prometheus' format.
 struct ScopeNames {
   std::string_view json;
@@ -402,6 +486,8 @@ ScopeNames namesOf(MetricScope scope) {
       return {"outputs[].", "output_"};
     case kFrames:
       return {"frames.", "frames_"};
+    case kMachine:
+      return {"machine.", "machine_"};
   }
   return {};
 }
@@ -411,8 +497,8 @@ ScopeNames namesOf(MetricScope scope) {
 const std::vector<Metric>& allMetrics() {
   static const std::vector<Metric> kMetrics = [] {
     std::vector<Metric> all;
-    for (const auto& part :
-         {programMetrics(), cameraMetrics(), paintingMetrics(), outputMetrics(), frameMetrics()}) {
+    for (const auto& part : {programMetrics(), cameraMetrics(), paintingMetrics(), outputMetrics(),
+                             frameMetrics(), machineMetrics()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;

@@ -26,7 +26,7 @@ enum class MetricType {
 enum class MetricUnit { kNone, kSeconds, kMilliseconds };
 
 /// The part of the live pipeline that a metric belongs to, in the order of the output.
-enum class MetricScope { kProgram, kCamera, kPainting, kOutput, kFrames };
+enum class MetricScope { kProgram, kCamera, kPainting, kOutput, kFrames, kMachine };
 
 /// The state that metrics are read from.
 struct MetricMoment {

@@ -14,6 +14,7 @@
 #include "hal/output.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/runtime/caption.h"
+#include "pipeline/runtime/dimming.h"
 #include "pipeline/runtime/duration_histogram.h"
 #include "pipeline/runtime/fade_in.h"
 #include "pipeline/runtime/frame_ledger.h"
@@ -74,8 +75,8 @@ struct OutputStageOptions {
 ///
 /// An output can show a waiting picture in place of frames, which fade in over it.
 /// Where it has surfaces that a GPU draws into, the painter draws frames straight into them
-/// (SurfaceLending); frames that fade or lie under a caption, and those for which none is free, are
-/// copied.
+/// (SurfaceLending); frames that fade or lie under a caption, those of a display that is dimmed,
+/// and those for which none is free, are copied.
 class OutputStage {
  public:
   /// `output` was started and answered `format`; or it is null, for OutputStageOptions::absence,
@@ -175,8 +176,9 @@ class OutputStage {
     bool isWaitingDue = false;    ///< a waiting picture is to be shown
     bool isWaitingShown = false;  ///< one was handed over, and no frame has been shown since
     bool isFailed = false;
-    bool isFinal = false;                       ///< failed, and will not be opened again
-    std::optional<hal::Error> failure;          ///< the last one
+    bool isFinal = false;               ///< failed, and will not be opened again
+    std::optional<hal::Error> failure;  ///< the last one
+    double brightness = 1.0;            ///< share of their values that images are shown with
     std::optional<hal::Suspension> suspension;  ///< of a display that shows nothing for now
     ScanOut scanOut;                            ///< of an output that lends surfaces
     bool addsUp() const;                        ///< submitted = waiting + sum of ended
@@ -212,6 +214,7 @@ class OutputStage {
   void freeBuffer(std::size_t buffer);
   void takeEvents();
   void followSuspension(const hal::SurfaceOutput& output);
+  void followBrightness(const hal::SurfaceOutput& output);
   Outcome outcomeWithoutSurface() const;
   void ended(const hal::PresentationEvent& event);
   Outcome outcomeOf(const hal::PresentationEvent& event, const Queued& queued) const;
@@ -230,6 +233,8 @@ class OutputStage {
   hal::Result<hal::Fence> copyWaiting(const hal::Image& picture, hal::SurfaceOutput& output,
                                       const hal::Surface& surface);
   std::shared_ptr<const Caption> drawCaption(hal::Image& frame);
+  void showWaitingAgain();
+  bool swapDimmed(hal::Image& frame);
   void fadeIn(const Due& due);
   void retire(const WaitingFrame& frame);
   hal::Duration timeOf(const WaitingFrame& frame);
@@ -243,6 +248,7 @@ class OutputStage {
   std::vector<hal::PresentationEvent> events_;  ///< a member so that its memory is reused
   FadeIn fade_;
   CaptionOverlay captions_;
+  hal::Image dimmed_;  ///< a frame, darker
   SurfaceLending lending_;
   bool isFaded_ = false;   ///< the frame that is being presented is not as it was painted
   bool isDirect_ = false;  ///< it was drawn into the output's surface
@@ -264,6 +270,7 @@ class OutputStage {
   std::shared_ptr<const hal::Image> waitingSeen_;  ///< the last one that was handed over
   std::shared_ptr<const Caption> caption_;
   double captionOpacity_ = 0.0;
+  Brightness brightness_ = kFullBrightness;
   std::optional<hal::SurfaceId> waitingSurface_;  ///< submitted, without an event
   std::optional<hal::OutputRequest> request_;     ///< for applyRequest()
   std::optional<std::size_t> last_;               ///< buffer of the last whole frame

@@ -31,7 +31,8 @@ std::optional<hal::LentSurface> OutputStage::takeSurface() {
     const std::scoped_lock lock(mutex_);
     // Frames that appear over a picture, or under one, are blended by the processor.
     const bool isWaiting = waiting_ || waitingSurface_ || status_.isWaitingShown || isFading_;
-    if (isWaiting || caption_ || status_.isFailed || status_.suspension) return std::nullopt;
+    const bool isBlended = isWaiting || caption_ || brightness_ != kFullBrightness;
+    if (isBlended || status_.isFailed || status_.suspension) return std::nullopt;
   }
   return lending_.take();
 }

@@ -119,7 +119,9 @@ hal::Result<std::optional<hal::Surface>> OutputStage::fillSurface(hal::SurfaceOu
   hal::Result<std::optional<hal::Surface>> surface = output.acquire();
   if (!surface || !*surface) return surface;
   const std::shared_ptr<const Caption> caption = drawCaption(frame.image);
+  const bool isDimmed = swapDimmed(frame.image);
   hal::Result<hal::Fence> filled = options_.fill(frame, output, **surface);
+  if (isDimmed) std::swap(frame.image, dimmed_);
   if (caption) captions_.remove(frame.image, *caption);
   if (!filled) {
     output.release(**surface);
@@ -127,6 +129,23 @@ hal::Result<std::optional<hal::Surface>> OutputStage::fillSurface(hal::SurfaceOu
   }
   fence = *std::move(filled);
   return surface;
+}
+
+/// Puts a darker copy in the frame's place, and the frame into dimmed_, where the display is
+/// dimmed; else returns false.
+bool OutputStage::swapDimmed(hal::Image& frame) {
+  Brightness brightness = kFullBrightness;
+  {
+    const std::scoped_lock lock(mutex_);
+    brightness = brightness_;
+  }
+  if (brightness == kFullBrightness || frame.format().pixelFormat != hal::PixelFormat::kRgba8) {
+    return false;
+  }
+  if (dimmed_.format() != frame.format()) dimmed_ = hal::Image(frame.format());
+  dim(frame.view(), brightness, dimmed_);
+  std::swap(frame, dimmed_);
+  return true;
 }
 
 /// False if no surface is free.
@@ -165,6 +184,7 @@ void OutputStage::takeEvents() {
   hal::Result<void> taken = surfaces->takeEvents(events_);
   const std::scoped_lock lock(mutex_);
   followSuspension(*surfaces);
+  followBrightness(*surfaces);
   for (const hal::PresentationEvent& event : events_) ended(event);
   if (!taken) fail(std::move(taken.error()));
 }
@@ -180,6 +200,13 @@ void OutputStage::followSuspension(const hal::SurfaceOutput& output) {
   if (!status_.suspension || *status_.suspension != *now) {
     status_.suspension = *now;
   }
+}
+
+/// Frames bring another brightness along by themselves. Precondition: the mutex is held.
+void OutputStage::followBrightness(const hal::SurfaceOutput& output) {
+  status_.brightness = output.brightness();
+  const Brightness now = brightnessOf(status_.brightness);
+  if (std::exchange(brightness_, now) != now) showWaitingAgain();
 }
 
 /// Precondition: the mutex is held.

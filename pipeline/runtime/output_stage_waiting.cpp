@@ -70,19 +70,24 @@ hal::Answer OutputStage::submitWaiting(hal::SurfaceOutput& output, const hal::Im
   return true;
 }
 
-/// With the caption.
+/// With the caption, and as bright as the display is to be.
 hal::Result<hal::Fence> OutputStage::copyWaiting(const hal::Image& picture,
                                                  hal::SurfaceOutput& output,
                                                  const hal::Surface& surface) {
   bool isCaptioned = false;
+  Brightness brightness = kFullBrightness;
   {
     const std::scoped_lock lock(mutex_);
     isCaptioned = caption_ != nullptr;
+    brightness = brightness_;
   }
-  if (!isCaptioned) return copyImage(picture.view(), output, surface);
-  hal::Image captioned = picture;
-  drawCaption(captioned);
-  return copyImage(captioned.view(), output, surface);
+  if (!isCaptioned && brightness == kFullBrightness) {
+    return copyImage(picture.view(), output, surface);
+  }
+  hal::Image shown = picture;
+  drawCaption(shown);
+  if (brightness != kFullBrightness) dim(shown.view(), brightness, shown);
+  return copyImage(shown.view(), output, surface);
 }
 
 void OutputStage::setCaption(std::shared_ptr<const Caption> caption, double opacity) {
@@ -90,7 +95,12 @@ void OutputStage::setCaption(std::shared_ptr<const Caption> caption, double opac
   if (caption == caption_ && opacity == captionOpacity_) return;
   caption_ = std::move(caption);
   captionOpacity_ = opacity;
-  // Frames bring it along by themselves.
+  showWaitingAgain();
+}
+
+/// With another caption or brightness; frames bring these along by themselves. Precondition: the
+/// mutex is held.
+void OutputStage::showWaitingAgain() {
   if (!status_.isWaitingShown || !waitingSeen_ || waiting_) return;
   waiting_ = waitingSeen_;
   isWoken_ = true;

@@ -421,6 +421,11 @@ void PaintStage::renew() {
   wake();
 }
 
+void PaintStage::limitQuality(std::size_t best) {
+  const std::scoped_lock lock(mutex_);
+  governor_.limit(best, clock_.now());
+}
+
 /// Destroys a painter that is to be replaced, once it has nothing in flight.
 void PaintStage::retireIfIdle() {
   if (!isToRenew_ || (painter_ && !inFlight_.empty())) return;
@@ -451,6 +456,7 @@ void PaintStage::stop() {
 PaintStage::Status PaintStage::status() const {
   const std::scoped_lock lock(mutex_);
   Status status{.quality = governor_.level(),
+                .bestQuality = governor_.best(),
                 .qualityLowered = governor_.lowered(),
                 .qualityRaised = governor_.raised(),
                 .latency = latency_.latency(),

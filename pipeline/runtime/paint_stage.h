@@ -73,6 +73,10 @@ class PaintStage {
   /// until it is there; those in flight are finished by the old one. Any thread.
   void renew();
 
+  /// Permits this quality level and lower ones only, from the next frame on; 0: all. A level that
+  /// is kept stays. Any thread.
+  void limitQuality(std::size_t best);
+
   /// During a pause the last frame is painted repeatedly, so that changed parameters show.
   void setPaused(bool on) { isPaused_ = on; }
   /// Whether a frame is in flight.
@@ -86,6 +90,7 @@ class PaintStage {
   };
   struct Status {
     std::size_t quality = 0;
+    std::size_t bestQuality = 0;  ///< that limitQuality() permits
     std::uint64_t qualityLowered = 0, qualityRaised = 0;
     hal::Duration latency{0}, configuredLatency{0};
     std::uint64_t latencyRaised = 0, latencyLowered = 0;

@@ -48,11 +48,19 @@ bool QualityGovernor::painted(double load, std::size_t level, hal::TimePoint now
     lower(now);
     return true;
   }
-  if (level_ > 0 && mayRaise(now)) {
+  if (level_ > best_ && mayRaise(now)) {
     raise(now);
     return true;
   }
   return false;
+}
+
+void QualityGovernor::limit(std::size_t best, hal::TimePoint now) {
+  if (rules_.pinned) return;
+  best_ = std::min(best, rules_.levels - 1);
+  if (level_ >= best_) return;
+  ++lowered_;
+  change(best_, now);
 }
 
 bool QualityGovernor::isOverBudget() const {

@@ -29,6 +29,8 @@ class QualityGovernor {
   explicit QualityGovernor(GovernorRules rules);
 
   std::size_t level() const { return level_; }
+  /// The best level that limit() permits.
+  std::size_t best() const { return best_; }
   bool isLowest() const { return rules_.pinned || level_ + 1 == rules_.levels; }
   std::uint64_t lowered() const { return lowered_; }  ///< number of times so far
   std::uint64_t raised() const { return raised_; }    ///< number of times so far
@@ -36,6 +38,10 @@ class QualityGovernor {
   /// Notes that a frame painted at `level` took the share `load` of its time budget. Returns
   /// whether the level changes.
   bool painted(double load, std::size_t level, hal::TimePoint now);
+
+  /// Permits this level and lower ones only, at once, until it is called again; 0: all. A level
+  /// that is kept (GovernorRules::pinned) stays.
+  void limit(std::size_t best, hal::TimePoint now);
 
  private:
   static constexpr std::size_t kWindow = 5;
@@ -52,6 +58,7 @@ class QualityGovernor {
 
   GovernorRules rules_;
   std::size_t level_ = 0;
+  std::size_t best_ = 0;
   std::uint64_t lowered_ = 0;
   std::uint64_t raised_ = 0;
 

@@ -189,6 +189,7 @@ std::string statusJson(const RuntimeStatus& status, const std::vector<std::strin
     json["outputs"].push_back(scopeJson(MetricScope::kOutput, moment));
   }
   json["frames"] = scopeJson(MetricScope::kFrames, moment);
+  json["machine"] = scopeJson(MetricScope::kMachine, moment);
   // A device's name may hold any bytes.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -122,6 +122,7 @@ struct SimulatedGpu {
   int made = 0;
   std::optional<hal::TimePoint> nextReady;
   bool isLost = false;
+  std::uint8_t painted = 0;  ///< every byte of what is read back: black
 
   // Of painting straight into surfaces; the pixels of a frame are kDrawn + its sequence number.
 
@@ -166,7 +167,7 @@ class SimulatedPainter final : public runtime::FramePainter {
     picture.surface = drawIfWanted(work_.at(index), output);
     const hal::FrameFormat& format = formats_.at(output).frame;
     if (picture.image.format() != format) picture.image = hal::Image(format);
-    std::ranges::fill(picture.image.plane(0), std::uint8_t{0});  // painted black
+    std::ranges::fill(picture.image.plane(0), gpu_.painted);
     ++*taken_.at(output);
     forgetTaken();
     return true;

@@ -20,6 +20,7 @@ using namespace display;
 namespace fs = std::filesystem;
 
 constexpr double kMaxMarginPercent = 20.0;
+constexpr const char* kDimLevel = "0.4";
 
 std::optional<double> percentOf(std::string_view text) {
   double percent = 0.0;
@@ -50,8 +51,12 @@ bool isMode(std::string_view text) {
   return isModeText(std::string(text));
 }
 
-bool isBlankTimes(std::string_view text) {
+bool isTimes(std::string_view text) {
   return text == "never" || DailyTimes::parsed(text).has_value();
+}
+
+bool isDimLevel(std::string_view text) {
+  return DimmingRules::parsedLevel(text).has_value();
 }
 
 bool isQuietTime(std::string_view text) {
@@ -77,6 +82,9 @@ DisplaySettings settingsOf(const OutputOptions& options) {
   settings.blanking.times = DailyTimes::parsed(valueOf(options, "blank", "never"));
   const auto quiet = QuietTime::parsed(valueOf(options, "blank_after", "never"));
   settings.blanking.after = quiet.value_or(QuietTime{}).after;
+  settings.dimming.times = DailyTimes::parsed(valueOf(options, "dim", "never"));
+  settings.dimming.level = DimmingRules::parsedLevel(valueOf(options, "dim_level", kDimLevel))
+                               .value_or(settings.dimming.level);
   return settings;
 }
 
@@ -183,13 +191,24 @@ OutputKind displayKind() {
                                "there.",
                        .initial = "never",
                        .allowed = "never, or times such as 22:00-08:00",
-                       .takes = isBlankTimes},
+                       .takes = isTimes},
                       {.name = "blank_after",
                        .help = "After how many seconds without a key or a movement before the "
                                "camera the display is switched off.",
                        .initial = "never",
                        .allowed = "never, or a whole number from 1 to 86400",
-                       .takes = isQuietTime}},
+                       .takes = isQuietTime},
+                      {.name = "dim",
+                       .help = "From when to when pictures are darker, whoever is there; the "
+                               "display's own backlight is left alone.",
+                       .initial = "never",
+                       .allowed = "never, or times such as 20:00-23:00",
+                       .takes = isTimes},
+                      {.name = "dim_level",
+                       .help = "How bright pictures are then: 1 as ever, 0 black.",
+                       .initial = kDimLevel,
+                       .allowed = "a number from 0 to 1",
+                       .takes = isDimLevel}},
           .recognizes = isDisplayName,
           .list = [] { return listDisplays(); },
           .problemOf = problemOf,

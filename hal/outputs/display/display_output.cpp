@@ -26,7 +26,11 @@ constexpr Duration kCheckInterval = std::chrono::seconds(1);
 class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
  public:
   DisplayOutput(std::string name, DisplaySettings settings, Cards& cards, const Clock& clock)
-      : name_(std::move(name)), settings_(std::move(settings)), cards_(cards), clock_(clock) {}
+      : name_(std::move(name)),
+        settings_(std::move(settings)),
+        cards_(cards),
+        clock_(clock),
+        dimmer_(settings_.dimming) {}
 
   OutputIdentity identity() const override {
     return {.backend = std::string(kDisplayName),
@@ -47,6 +51,7 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
   Result<Image> copyOfGpuSurface(SurfaceId surface, bool isWholeBuffer) override;
   std::optional<TimePoint> nextEvent() const override { return flips_->nextEvent(); }
   const Suspension* suspension() const override { return suspension_ ? &*suspension_ : nullptr; }
+  double brightness() const override { return dimmer_.level(clock_.now()); }
   void noteActivity() override { cards_.noteActivity(clock_.now()); }
 
  private:
@@ -90,6 +95,7 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
   DisplaySettings settings_;
   Cards& cards_;
   const Clock& clock_;
+  Dimmer dimmer_;
 
   std::optional<DisplayPipe> pipe_;
   std::optional<FlipQueue> flips_;
@@ -112,6 +118,7 @@ Result<OutputFormat> DisplayOutput::start(const OutputRequest& request) {
   const Mode mode = claimed->route.mode;
   pipe_.emplace(*std::move(claimed), settings_.mode == "auto", settings_.driftPixels);
   driftsSince_ = clock_.now();
+  dimmer_.follow(cards_.timeOfDay(), clock_.now());
   flips_.emplace(*pipe_, clock_);
   if (const auto set = setMode(mode); !set) return tl::unexpected(set.error());
   return place(request.size);
@@ -315,6 +322,7 @@ Result<void> DisplayOutput::checkConnection(TimePoint now) {
   flips_->followRefresh();
   pipe_->panTo(static_cast<std::uint64_t>((now - driftsSince_) / DisplaySettings::kDriftInterval));
   const std::optional<Duration> time = cards_.timeOfDay();
+  dimmer_.follow(time, now);
   isInBlankTimes_ = time && settings_.blanking.times && settings_.blanking.times->contain(*time);
   if (has.isYes()) return {};
   return tl::unexpected(Error{.kind = ErrorKind::kDeviceLost,

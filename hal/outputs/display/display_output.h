@@ -9,6 +9,7 @@
 #include "hal/output_kind.h"
 #include "hal/outputs/display/blanking.h"
 #include "hal/outputs/display/card.h"
+#include "hal/outputs/display/dimming.h"
 #include "hal/outputs/display/picture_area.h"
 
 namespace pleinair::hal {
@@ -17,6 +18,7 @@ struct DisplaySettings {
   std::string mode = "auto";  ///< display::DisplayRequest::mode
   display::Placement placement;
   display::BlankingRules blanking;
+  display::DimmingRules dimming = {};
   /// By how many pixels, at most, pictures move away from the middle and back, a pixel in each
   /// kDriftInterval, so that nothing burns in; as much of each edge is cut off. 0: not at all.
   int driftPixels = 0;
@@ -42,7 +44,8 @@ struct DisplaySettings {
 /// While another console is in front (leaveConsole()) or another program has become the card's
 /// master, it is suspended, and afterwards sets its mode anew, as it does after the computer was
 /// suspended. While it is blanked, it is suspended with the display switched off; noteActivity(),
-/// which counts for all displays of `cards`, switches it on.
+/// which counts for all displays of `cards`, switches it on. While it is dimmed, brightness() says
+/// so; its own backlight is left alone.
 ///
 /// finish() and destruction bring back what was shown before; where the process is killed, the
 /// kernel brings back its console.
@@ -76,7 +79,7 @@ Result<DisplayTiming> displayTiming(const std::string& name,
                                     display::Cards& cards = display::kernelCards());
 
 /// "display" and "display:CONNECTOR"; its options are `mode`, `fit`, `rotation`, `margin`, `drift`,
-/// `scan_out`, `blank` and `blank_after`.
+/// `scan_out`, `blank`, `blank_after`, `dim` and `dim_level`.
 OutputKind displayKind();
 
 }  // namespace pleinair::hal

@@ -116,6 +116,28 @@ TEST_F(LivePipelineTest, LowersQualityAndKeepsTheLatencyUnderTwiceTheLoad) {
   expectSumsToAgree();
 }
 
+TEST_F(LivePipelineTest, PaintsAtNoBetterLevelThanIsPermitted) {
+  std::size_t best = 9;  // of the frames since it was set
+  live_.gpu.cost = [&](auto, std::size_t quality) {
+    best = std::min(best, quality);
+    return 5ms;
+  };
+  begin();
+  live_.runFor(5s);
+  EXPECT_EQ(best, 0u) << "a control";
+  live_.chain->paint().limitQuality(3);
+  best = 9;
+  live_.runFor(60s);
+  EXPECT_EQ(best, 3u);
+  EXPECT_EQ(status().painting.quality, 3u);
+  EXPECT_EQ(status().painting.bestQuality, 3u);
+  live_.chain->paint().limitQuality(0);
+  live_.runFor(60s);
+  EXPECT_EQ(status().painting.quality, 0u);
+  EXPECT_EQ(status().painting.bestQuality, 0u);
+  expectSumsToAgree();
+}
+
 TEST_F(LivePipelineTest, RaisesQualityAgainWithACameraThatDeliversLate) {
   hal::Duration cost = 20ms;
   live_.gpu.cost = [&](auto, std::size_t quality) { return quality == 0 ? cost : 3 * cost / 4; };

@@ -94,6 +94,27 @@ TEST_F(QualityGovernorTest, StaysWhereItIsPinned) {
   EXPECT_TRUE(governor_.isLowest()) << "nothing is left to be lowered";
 }
 
+TEST_F(QualityGovernorTest, ALimitLowersAtOnceAndHolds) {
+  run(10s, 0.3);
+  governor_.limit(2, now_);
+  EXPECT_EQ(governor_.level(), 2u);
+  EXPECT_EQ(governor_.lowered(), 1u);
+  run(5min, 0.3);
+  EXPECT_EQ(governor_.level(), 2u) << "though better levels would fit";
+  run(1s, 4.0);
+  EXPECT_GT(governor_.level(), 2u) << "load lowers further";
+  governor_.limit(0, now_);
+  run(2min, 0.3);
+  EXPECT_EQ(governor_.level(), 0u);
+}
+
+TEST_F(QualityGovernorTest, ALimitLeavesAPinnedLevel) {
+  governor_ = QualityGovernor({.levels = 5, .pinned = 1});
+  governor_.limit(4, now_);
+  EXPECT_EQ(governor_.level(), 1u);
+  EXPECT_EQ(governor_.best(), 0u) << "nothing is said to be limited";
+}
+
 TEST_F(QualityGovernorTest, SettlesUnderNoise) {
   std::mt19937 random(3);
   std::normal_distribution<double> noise(1.0, 0.15);

@@ -69,6 +69,34 @@ TEST(StatusJson, HoldsEverything) {
   EXPECT_EQ(json["outputs"][0]["submitted"], 100);
 }
 
+TEST(StatusJson, HoldsTheStateOfTheMachineAsFarAsItIsKnown) {
+  RuntimeStatus status = someStatus();
+  EXPECT_TRUE(nlohmann::json::parse(statusJson(status, levels()))["machine"].empty());
+  status.machine = hal::MachineState{
+      .hottest = hal::ThermalZone{.name = "gpu-thermal", .celsius = 71.5, .limitCelsius = 80},
+      .usedBytes = 300'000'000,
+      .availableBytes = {},
+      .diskFreeBytes = 16'000'000'000,
+      .clock = hal::ClockTrust::kWrong,
+      .clockJumps = 2};
+  status.painting.bestQuality = 1;
+  const auto json = nlohmann::json::parse(statusJson(status, levels()));
+  EXPECT_EQ(json["machine"]["sensor"], "gpu-thermal");
+  EXPECT_EQ(json["machine"]["celsius"], 71.5);
+  EXPECT_EQ(json["machine"]["limit_celsius"], 80);
+  EXPECT_EQ(json["machine"]["memory_used_bytes"], 300'000'000);
+  EXPECT_FALSE(json["machine"].contains("memory_available_bytes"));
+  EXPECT_EQ(json["machine"]["disk_free_bytes"], 16'000'000'000);
+  EXPECT_EQ(json["machine"]["clock"], "wrong");
+  EXPECT_EQ(json["machine"]["clock_jumps"], 2);
+  EXPECT_EQ(json["painting"]["quality_limit"], "high");
+  const std::string metrics = statusMetrics(status, levels());
+  EXPECT_THAT(metrics, HasSubstr("\npleinair_machine_celsius 71.5\n"));
+  EXPECT_THAT(metrics, HasSubstr("\npleinair_machine_clock_jumps_total 2\n"));
+  EXPECT_THAT(metrics, HasSubstr("pleinair_machine_clock{clock=\"wrong\"} 1\n"));
+  EXPECT_THAT(metrics, HasSubstr("pleinair_painting_quality_limit{quality_limit=\"high\"} 1\n"));
+}
+
 TEST(StatusJson, LeavesOutWhatIsNotKnown) {
   RuntimeStatus status = someStatus();
   auto json = nlohmann::json::parse(statusJson(status, levels()));

@@ -100,7 +100,7 @@ TEST_F(Units, AreWellFormed) {
     EXPECT_EQ(answer.text, "") << each.path();
     ++count;
   }
-  EXPECT_GE(count, 5);
+  EXPECT_GE(count, 6);
 }
 
 TEST_F(Units, AreRefusedWhereTheyAreNot) {
@@ -119,6 +119,38 @@ TEST_F(Units, ExposeLittle) {
     EXPECT_LE(exposureOf(each), opensDevices ? 1.0 : 0.5) << each;
   }
   EXPECT_GE(services().size(), 3u);
+}
+
+/// The value of the first such line: "Where" of "Where=/media".
+std::string valueIn(const std::string& text, const std::string& key) {
+  const std::size_t at = text.find("\n" + key + "=");
+  if (at == std::string::npos) return {};
+  const std::size_t begin = at + key.size() + 2;
+  return text.substr(begin, text.find('\n', begin) - begin);
+}
+
+TEST_F(Units, LookForTheSetUpWhereItsPartitionIsMountedReadOnly) {
+  const std::string mount = textOf(folder_.path() / "media-pleinair.mount");
+  const std::string where = valueIn(mount, "Where");
+  EXPECT_EQ(where, "/media/pleinair") << "as the unit's name says";
+  const std::string options = "," + valueIn(mount, "Options") + ",";
+  for (const char* option : {",ro,", ",nosuid,", ",nodev,", ",noexec,"}) {
+    EXPECT_THAT(options, HasSubstr(option));
+  }
+  for (const char* service : {"pleinair-kiosk.service", "pleinair-repair-station.service"}) {
+    const std::string text = textOf(folder_.path() / service);
+    EXPECT_THAT(valueIn(text, "ExecStart"), HasSubstr(" --provisioning " + where)) << service;
+    EXPECT_THAT(valueIn(text, "After"), HasSubstr("media-pleinair.mount")) << service;
+  }
+  EXPECT_THAT(valueIn(textOf(folder_.path() / "pleinair-rescue@.service"), "ExecStart"),
+              HasSubstr(" --provisioned"));
+  // udev starts the mount for the label that it mounts.
+  const std::string rules = textOf(PLEINAIR_UDEV_RULES);
+  const std::string device = valueIn(mount, "What");
+  EXPECT_THAT(rules,
+              HasSubstr("ENV{ID_FS_LABEL}==\"" + fs::path(device).filename().string() + "\""));
+  EXPECT_THAT(rules, HasSubstr("ENV{SYSTEMD_WANTS}+=\"media-pleinair.mount\""));
+  EXPECT_THAT(rules, HasSubstr("ENV{ID_FS_TYPE}==\"" + valueIn(mount, "Type") + "\""));
 }
 
 TEST_F(Units, AreJudgedByWhatTheySay) {

@@ -43,6 +43,26 @@ TEST(StatusPage, SaysWhatIsShownAndWhatIsNot) {
   }
 }
 
+TEST(StatusPage, SaysHowTheMachineIs) {
+  runtime::RuntimeStatus status;
+  EXPECT_THAT(statusPage(status, "none", {"full"}), Not(HasSubstr("<th>Machine</th>")));
+  status.machine = hal::MachineState{
+      .hottest = hal::ThermalZone{.name = "cpu-thermal", .celsius = 76.4, .limitCelsius = 80},
+      .usedBytes = 312'400'000,
+      .availableBytes = 1'230'000'000,
+      .diskFreeBytes = 14'260'000'000,
+      .clock = hal::ClockTrust::kWrong,
+      .clockJumps = 2};
+  status.painting.hasPainter = true;
+  status.painting.quality = 1;
+  status.painting.bestQuality = 1;
+  const std::string page = statusPage(status, "none", {"full", "high"});
+  EXPECT_THAT(page, HasSubstr("cpu-thermal at 76 °C (slows down from 80 °C on); 312 MB of memory "
+                              "used; 1.2 GB available; 14.3 GB of disk free"));
+  EXPECT_THAT(page, HasSubstr("wrong: no schedule is followed; jumped 2 times"));
+  EXPECT_THAT(page, HasSubstr("at most high until the machine has cooled"));
+}
+
 TEST(StatusPage, ShowsNoMarkupOfNames) {
   runtime::RuntimeStatus status;
   status.camera.lastLoss = "<script>alert(\"x\")</script> & more";

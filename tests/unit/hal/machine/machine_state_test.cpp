@@ -3,13 +3,12 @@
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "hal/machine/local_time.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/fake_machine.h"
 
 namespace pleinair::hal {
 namespace {
@@ -22,35 +21,19 @@ const std::chrono::system_clock::time_point kToday =
 
 class MachineTest : public testing::Test {
  protected:
-  MachineTest() {
-    places_ = {.thermal = folder_.path() / "thermal",
-               .process = folder_.path() / "self",
-               .memory = folder_.path() / "meminfo",
-               .cgroups = folder_.path() / "cgroup",
-               .synchronized = folder_.path() / "synchronized",
-               .state = folder_.path()};
-  }
-  void write(const fs::path& file, const std::string& text) {
-    fs::create_directories((folder_.path() / file).parent_path());
-    std::ofstream(folder_.path() / file) << text << "\n";
-  }
+  void write(const fs::path& file, const std::string& text) { machine_.write(file, text); }
   void addZone(int number, const std::string& type, int celsius) {
-    const fs::path zone = fs::path("thermal") / ("thermal_zone" + std::to_string(number));
-    write(zone / "type", type);
-    write(zone / "temp", std::to_string(celsius * 1000));
+    machine_.setZone(number, type, celsius);
   }
   void addTrip(int zone, int number, const std::string& type, int celsius) {
-    const fs::path base = fs::path("thermal") / ("thermal_zone" + std::to_string(zone));
-    const std::string trip = "trip_point_" + std::to_string(number);
-    write(base / (trip + "_type"), type);
-    write(base / (trip + "_temp"), std::to_string(celsius * 1000));
+    machine_.setTrip(zone, number, type, celsius);
   }
   MachineState read(Duration sinceBoot = 100s) {
     return MachineWatch(places_).read(kToday, sinceBoot);
   }
 
-  support::TemporaryFolder folder_;
-  MachinePlaces places_;
+  support::FakeMachine machine_;
+  MachinePlaces places_ = machine_.places();
 };
 
 TEST_F(MachineTest, SaysNothingOfWhatIsNotThere) {
@@ -112,7 +95,7 @@ TEST_F(MachineTest, AHiddenMeminfoIsNoError) {
 
 TEST_F(MachineTest, FreeSpaceIsThatOfTheFolderOfTheState) {
   EXPECT_GT(read().diskFreeBytes.value_or(0), 0u);
-  places_.state = folder_.path() / "nowhere";
+  places_.state = machine_.path() / "nowhere";
   EXPECT_FALSE(read().diskFreeBytes.has_value());
 }
 
