@@ -1,4 +1,5 @@
 #include <cstdint>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 
@@ -26,10 +27,14 @@ bool isSynchronised() {
   return answer != TIME_ERROR && (state.status & STA_UNSYNC) == 0;
 }
 
+/// 32 hexadecimal digits. A service that does not see the kernel's has it of its manager (%b).
 std::string bootId() {
   std::ifstream file("/proc/sys/kernel/random/boot_id");
   std::string id;
   std::getline(file, id);
+  const char* given = std::getenv("BOOT_ID");
+  if (id.empty() && given != nullptr) id = given;
+  std::erase(id, '-');
   return id;
 }
 
