@@ -59,6 +59,7 @@ struct FakeVideo {
   std::vector<FakeFormat> formats{FakeFormat{}};
   std::size_t rowPadding = 0;
   bool reportsNoStride = false;
+  bool eventsNeverEnd = false;  ///< once there was one
   std::uint32_t colorspace = V4L2_COLORSPACE_SRGB;
   std::uint32_t encoding = 0;
   std::uint32_t quantization = 0;

@@ -77,7 +77,7 @@ int FakeV4l2::Device::answer(int fd, unsigned long request, void* argument) {
       return 0;
     case VIDIOC_DQEVENT: {
       if (!eventPending) return -ENOENT;
-      eventPending = false;
+      eventPending = video.eventsNeverEnd;
       auto& event = *static_cast<v4l2_event*>(argument);
       event.type = V4L2_EVENT_SOURCE_CHANGE;
       event.u.src_change.changes = V4L2_EVENT_SRC_CH_RESOLUTION;

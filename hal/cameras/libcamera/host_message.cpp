@@ -1,5 +1,7 @@
 #include "hal/cameras/libcamera/host_message.h"
 
+#include "hal/printable.h"
+
 namespace pleinair::hal::libcamera {
 
 void MessageWriter::put(std::string_view text) {
@@ -111,9 +113,10 @@ void MessageReader::take(FrameSize& size) {
 
 void MessageReader::take(Error& error) {
   take(error.kind, ErrorKind::kInternal);
-  take(error.subject);
-  take(error.problem);
-  take(error.remedy);
+  for (std::string* const text : {&error.subject, &error.problem, &error.remedy}) {
+    take(*text);
+    *text = printable(*text);
+  }
   take(error.domain, ErrorDomain::kGl);
   take(error.code);
 }

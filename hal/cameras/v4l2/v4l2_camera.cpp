@@ -26,6 +26,10 @@ namespace {
 /// The pause before a driver is polled again that signalled readiness but had no buffer.
 constexpr Duration kRetryInterval = std::chrono::milliseconds(1);
 
+/// What is taken at a time of events that wait, for drivers that never run out of them. The kernel
+/// keeps fewer.
+constexpr int kMostEvents = 64;
+
 FrameHealth healthOf(const Filled& filled, const Negotiated& negotiated) {
   if ((filled.flags & V4L2_BUF_FLAG_ERROR) != 0) return FrameHealth::kCorrupt;
   for (int i = 0; i < negotiated.layout->memoryPlanes; ++i) {
@@ -155,6 +159,7 @@ NextFrame Session::next(TimePoint deadline) {
   for (;;) {
     if (ended_) return *ended_;
     if (std::optional<NextFrame> answer = step(deadline)) return *std::move(answer);
+    if (clock_.now() >= deadline) return CameraTimeout{};  // a source that changes without end
   }
 }
 
@@ -193,7 +198,7 @@ std::optional<NextFrame> Session::readFrame(TimePoint deadline) {
 bool Session::isSourceChanged() const {
   bool isChanged = false;
   v4l2_event event{};
-  while (device_.ask(VIDIOC_DQEVENT, event) >= 0) {
+  for (int i = 0; i < kMostEvents && device_.ask(VIDIOC_DQEVENT, event) >= 0; ++i) {
     isChanged |= event.type == V4L2_EVENT_SOURCE_CHANGE &&
                  (event.u.src_change.changes & V4L2_EVENT_SRC_CH_RESOLUTION) != 0;
     event = {};
