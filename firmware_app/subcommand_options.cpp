@@ -24,7 +24,17 @@ void addConfig(CLI::App& app, ConfigOptions& options, std::function<int()>& chos
 
 void addDevices(CLI::App& app, DevicesOptions& options, std::function<int()>& chosen) {
   CLI::App& command = *app.add_subcommand("devices", "list the available cameras and outputs");
+  CLI::Option* const modes = command.add_flag(
+      "--modes", options.modes,
+      "list the modes of cameras, and which one each would take for camera.size and camera.rate");
+  addKey(command, options.configuration, "--size", "camera.size", "the size asked for", "WxH")
+      ->needs(modes);
+  addKey(command, options.configuration, "--rate", "camera.rate", "the frames a second asked for",
+         "FPS")
+      ->needs(modes);
   command.add_flag("--json", options.json, "print JSON");
+  addConfiguration(command, options.configuration);
+  refuseEmptyValues(command);
   command.callback([&] { chosen = [&options] { return listDevices(options); }; });
 }
 

@@ -20,6 +20,18 @@ struct CameraMode {
   bool isSupported = true;        ///< whether pleinair reads this layout
 };
 
+/// The mode that a camera would be asked for.
+struct ChosenMode {
+  CameraMode mode;     ///< `periods`: one, or none where the camera does not say
+  std::string reason;  ///< why it and no other, a line without a full stop
+};
+
+/// What a camera offers, and which of it start() would take.
+struct OfferedModes {
+  std::vector<CameraMode> modes;
+  ChosenMode chosen;
+};
+
 /// A device as its back end describes it without streaming from it.
 struct CameraDescription {
   CameraIdentity identity;
@@ -28,7 +40,9 @@ struct CameraDescription {
   std::string path;
   std::string node;  ///< "/dev/video0"; empty if it has none
   std::vector<CameraMode> modes;
-  bool areModesKnown = true;     ///< false: the camera tells them only once it is opened
+  bool areModesKnown = true;  ///< false: the camera tells them only once it is opened
+  std::optional<ChosenMode>
+      chosen;                    ///< for a request, where CameraBackend::offeredModes() was asked
   std::optional<Error> problem;  ///< why it could not be inspected (permissions, busy)
 };
 
@@ -48,6 +62,14 @@ class CameraBackend {
   /// Makes the camera with that identity().id, stopped. It need not be present; start() reports
   /// that. The clock outlives the camera.
   virtual std::unique_ptr<Camera> make(const std::string& id, Clock& clock) = 0;
+
+  /// The modes of the camera with that identity().id, and the one that start() would take for the
+  /// request. Opens it without streaming, and sets nothing that lasts. Errors: those of start().
+  virtual Result<OfferedModes> offeredModes(const std::string& id, const StreamRequest&) {
+    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
+                                .subject = id,
+                                .problem = "does not tell its modes before it streams"});
+  }
 };
 
 }  // namespace pleinair::hal

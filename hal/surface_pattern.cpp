@@ -15,12 +15,13 @@ std::string colourText(std::span<const std::uint8_t> rgb) {
 }  // namespace
 
 Result<void> checkSurfacePattern(const ImageView& seen, SurfaceId surface) {
-  constexpr std::size_t kPixelBytes = 4;
+  constexpr std::size_t kPatternPixelBytes = 4;
   for (int y = 0; y < seen.format.size.height; ++y) {
     const std::span<const std::uint8_t> row = seen.row(0, y);
     for (int x = 0; x < seen.format.size.width; ++x) {
       const std::array<std::uint8_t, 3> wanted = surfacePatternAt(x, y, surface);
-      const auto pixel = row.subspan(static_cast<std::size_t>(x) * kPixelBytes, wanted.size());
+      const auto pixel =
+          row.subspan(static_cast<std::size_t>(x) * kPatternPixelBytes, wanted.size());
       if (std::ranges::equal(pixel, wanted)) continue;
       return tl::unexpected(Error{
           .kind = ErrorKind::kUnsupported,

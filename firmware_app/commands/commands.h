@@ -42,10 +42,13 @@ struct ConfigOptions {
 int printConfiguration(const ConfigOptions& options);
 
 struct DevicesOptions {
+  ConfigurationRequest configuration;
+  bool modes = false;  ///< cameras alone, and the mode that each would take for the configuration
   bool json = false;
 };
 
-/// Prints the available cameras and outputs, with ids and formats: `pleinair devices`.
+/// Prints the available cameras and outputs, with ids and formats: `pleinair devices`. Cameras are
+/// opened for their modes only.
 int listDevices(const DevicesOptions& options);
 
 struct DoctorOptions {

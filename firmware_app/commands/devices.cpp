@@ -2,6 +2,7 @@
 
 #include "firmware_app/commands/commands.h"
 #include "firmware_app/config/camera_selection.h"
+#include "firmware_app/config/configured_parts.h"
 #include "firmware_app/devices/inventory.h"
 #include "firmware_app/doctor/scan_out_trial.h"
 #include "hal/outputs/registry.h"
@@ -28,10 +29,19 @@ Inventory takeInventory() {
   return inventory;
 }
 
+/// The cameras alone, with their modes and what each would take.
+Inventory takeModes(const ConfigurationRequest& request) {
+  const CameraSettings settings = configuredCamera(Configuration(request));
+  const std::vector<hal::SelectableBackend> backends = deviceBackends(settings);
+  Inventory inventory{.cameras = listDeviceCameras(backends), .asked = streamRequestOf(settings)};
+  askModes(inventory.cameras, backends, *inventory.asked);
+  return inventory;
+}
+
 }  // namespace
 
 int listDevices(const DevicesOptions& options) {
-  const Inventory inventory = takeInventory();
+  const Inventory inventory = options.modes ? takeModes(options.configuration) : takeInventory();
   // Write errors are checked once, at the end of the program.
   std::fputs((options.json ? asJson(inventory) : asText(inventory)).c_str(), stdout);
   return 0;

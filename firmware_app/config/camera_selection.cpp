@@ -62,6 +62,15 @@ std::vector<hal::SelectableBackend> deviceBackends() {
   return backends;
 }
 
+std::vector<hal::SelectableBackend> deviceBackends(const CameraSettings& settings) {
+  std::vector<hal::SelectableBackend> backends;
+  for (const hal::CameraKind* kind : hal::cameraKinds()) {
+    if (kind->naming != hal::CameraNaming::kDevices) continue;
+    backends.push_back({.backend = kind->open(settings.tableOf(*kind), {})});
+  }
+  return backends;
+}
+
 std::unique_ptr<hal::CameraSelector> makeCameraSelector(const CameraSettings& settings,
                                                         hal::Clock& clock) {
   const hal::CameraBackendOptions options = backendOptionsOf(settings, hal::Pacing::kRealTime);

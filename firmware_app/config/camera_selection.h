@@ -14,6 +14,8 @@ namespace pleinair::app {
 
 /// The back ends whose cameras are devices, in the order in which "auto" tries them.
 std::vector<hal::SelectableBackend> deviceBackends();
+/// The same, with the settings of their own tables.
+std::vector<hal::SelectableBackend> deviceBackends(const CameraSettings& settings);
 
 /// Makes the selector of camera.source. Its candidates deliver in real time: devices, each on its
 /// own driver thread, so that none blocks the program for long; the synthetic camera; and a

@@ -19,6 +19,25 @@ DeviceCameras listDeviceCameras(std::span<const hal::SelectableBackend> backends
   return all;
 }
 
+void askModes(DeviceCameras& cameras, std::span<const hal::SelectableBackend> backends,
+              const hal::StreamRequest& request) {
+  for (hal::CameraDescription& each : cameras.cameras) {
+    const auto found =
+        std::ranges::find_if(backends, [&](const hal::SelectableBackend& selectable) {
+          return selectable.backend->name() == each.identity.backend;
+        });
+    if (found == backends.end() || each.problem) continue;
+    hal::Result<hal::OfferedModes> modes = found->backend->offeredModes(each.identity.id, request);
+    if (!modes) {
+      each.problem = std::move(modes.error());
+      continue;
+    }
+    each.modes = std::move(modes->modes);
+    each.areModesKnown = true;
+    each.chosen = std::move(modes->chosen);
+  }
+}
+
 std::vector<ListedKeyboard> listKeyboards(hal::KeyboardDevices& devices) {
   std::vector<ListedKeyboard> all;
   for (hal::KeyboardDescription& each : devices.list()) {

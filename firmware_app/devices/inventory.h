@@ -21,6 +21,11 @@ struct DeviceCameras {
 
 DeviceCameras listDeviceCameras(std::span<const hal::SelectableBackend> backends);
 
+/// Adds the modes of each camera and the one that it would take for the request, or its problem.
+/// `backends`: as for listDeviceCameras(). Opens the cameras.
+void askModes(DeviceCameras& cameras, std::span<const hal::SelectableBackend> backends,
+              const hal::StreamRequest& request);
+
 /// The outputs of a kind that are there, or how files of it are named.
 struct KindOfOutputs {
   std::string kind;
@@ -46,6 +51,8 @@ struct Inventory {
   DeviceCameras cameras;
   std::vector<KindOfOutputs> outputs;
   std::vector<ListedKeyboard> keyboards;
+  /// What cameras were asked for, if they were: the inventory is of cameras alone then.
+  std::optional<hal::StreamRequest> asked;
 };
 
 /// Text for the terminal: a line per device, its formats below. An empty list says so and gives the
@@ -53,9 +60,11 @@ struct Inventory {
 std::string asText(const Inventory& inventory);
 
 /// For programs: {"cameras": [{"backend", "id", "name", "serial", "node", "formats": [{"layout",
-/// "width", "height", "rates", "read"} …], "problem"} …], "outputs": [{"kind", "target", "name",
+/// "width", "height", "rates", "read"} …], "chosen": {"layout", "width", "height", "rate",
+/// "reason"}, "problem"} …], "outputs": [{"kind", "target", "name",
 /// "formats", "busy", "scan_out", "problem"} …], "keyboards": [{"node", "name", "keyboard",
-/// "problem"} …], "problems": [text …]}; "problem" is null where there is none.
+/// "problem"} …], "problems": [text …]}; "chosen", its "rate" and
+/// "problem" are null where there is none.
 std::string asJson(const Inventory& inventory);
 
 }  // namespace pleinair::app

@@ -23,6 +23,16 @@ Json modeOf(const hal::CameraMode& mode) {
           {"read", mode.isSupported}};
 }
 
+Json chosenOf(const std::optional<hal::ChosenMode>& chosen) {
+  if (!chosen) return {};
+  Json json = modeOf(chosen->mode);
+  json["rate"] = json["rates"].empty() ? Json() : json["rates"][0];
+  json.erase("rates");
+  json.erase("read");
+  json["reason"] = chosen->reason;
+  return json;
+}
+
 Json cameraOf(const hal::CameraDescription& camera) {
   Json formats = Json::array();
   for (const hal::CameraMode& mode : camera.modes) formats.push_back(modeOf(mode));
@@ -32,6 +42,7 @@ Json cameraOf(const hal::CameraDescription& camera) {
           {"serial", camera.serial},
           {"node", camera.node},
           {"formats", std::move(formats)},
+          {"chosen", chosenOf(camera.chosen)},
           {"problem", problemOf(camera.problem)}};
 }
 

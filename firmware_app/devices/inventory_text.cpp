@@ -63,7 +63,11 @@ std::string cameraText(const hal::CameraDescription& camera) {
     text += fmt::format("    {:<5} {}{}\n", layout.layout, fmt::join(layout.sizes, "; "),
                         layout.isSupported ? "" : " (not supported)");
   }
-  if (!camera.areModesKnown) {
+  if (camera.chosen) {
+    text += fmt::format("    takes {} {}: {}\n", camera.chosen->mode.layout,
+                        sizeText(camera.chosen->mode), camera.chosen->reason);
+  }
+  if (!camera.areModesKnown && !camera.problem) {
     text += "    tells its formats when it is opened\n";
   } else if (!camera.problem && camera.modes.empty()) {
     text += "    offers no formats\n";
@@ -71,8 +75,18 @@ std::string cameraText(const hal::CameraDescription& camera) {
   return text;
 }
 
+/// What they are asked for: ", asked for 640x480 at 30".
+std::string askedText(const hal::StreamRequest& request) {
+  hal::CameraMode mode{
+      .layout = {}, .size = request.size.value_or(hal::FrameSize{}), .periods = {}};
+  if (request.framePeriod) mode.periods = {*request.framePeriod};
+  return ", asked for " + sizeText(mode);
+}
+
 std::string camerasText(const Inventory& inventory) {
-  std::string text = "Cameras (--camera ID)\n";
+  std::string text = "Cameras (--camera ID)";
+  if (inventory.asked) text += askedText(*inventory.asked);
+  text += "\n";
   for (const hal::CameraDescription& each : inventory.cameras.cameras) text += cameraText(each);
   for (const hal::Error& each : inventory.cameras.problems) text += "  " + each.message() + "\n";
   if (inventory.cameras.cameras.empty() && inventory.cameras.problems.empty()) {
@@ -124,6 +138,7 @@ std::string keyboardsText(const Inventory& inventory) {
 }  // namespace
 
 std::string asText(const Inventory& inventory) {
+  if (inventory.asked) return camerasText(inventory);
   return camerasText(inventory) + "\n" + outputsText(inventory) + "\n" + keyboardsText(inventory);
 }
 

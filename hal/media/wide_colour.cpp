@@ -218,7 +218,9 @@ Result<void> convert(const AVFrame& source, const zimg_image_format& from, AVFra
                        ZIMG_BUFFER_MAX};
   }
   const std::align_val_t alignment{kZimgAlignment};
-  const auto release = [alignment](void* memory) { ::operator delete(memory, alignment); };
+  const auto release = [](void* memory) {
+    ::operator delete (memory, std::align_val_t{kZimgAlignment});
+  };
   const std::unique_ptr<void, decltype(release)> scratch(
       ::operator new(std::max<std::size_t>(scratchBytes, 1), alignment), release);
   if (zimg_filter_graph_process(graph.get(), &input, &output, scratch.get(), nullptr, nullptr,

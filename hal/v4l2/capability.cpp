@@ -8,13 +8,16 @@
 
 #include <linux/videodev2.h>
 
+#include "hal/printable.h"
+
 namespace pleinair::hal::v4l2 {
 namespace {
 
 /// Reads one of the kernel's fixed-size text fields, which need not end in a zero.
 template <std::size_t kSize>
 std::string textOf(const __u8 (&field)[kSize]) {
-  return {std::begin(field), std::find(std::begin(field), std::end(field), 0)};
+  return printable(
+      std::string(std::begin(field), std::find(std::begin(field), std::end(field), 0)));
 }
 
 }  // namespace

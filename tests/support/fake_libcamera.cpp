@@ -2,10 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <deque>
+#include <mutex>
+#include <span>
 #include <utility>
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include "hal/cameras/libcamera/frame_layout.h"
+#include "hal/file_descriptor.h"
 
 namespace pleinair::support {
 namespace {
@@ -15,10 +22,45 @@ using hal::Duration;
 using hal::Error;
 using hal::Result;
 
-/// A buffer with the memory that its planes are in.
-struct OwnedMemory {
-  std::array<std::vector<std::uint8_t>, 3> bytes;
+/// A buffer with the memory that its planes are in: of this process, or one behind the other in a
+/// file that can be shared.
+class OwnedMemory {
+ public:
+  OwnedMemory(const std::array<std::size_t, 3>& sizes, bool isShared) {
+    std::size_t offset = 0;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      view.offsets.at(i) = isShared ? offset : 0;
+      offset += sizes.at(i);
+    }
+    if (isShared) {
+      file_ = hal::FileDescriptor(memfd_create("sensor", MFD_CLOEXEC));
+      if (ftruncate(file_.get(), static_cast<off_t>(offset)) != 0) std::abort();
+      void* const address =
+          mmap(nullptr, offset, PROT_READ | PROT_WRITE, MAP_SHARED, file_.get(), 0);
+      if (address == MAP_FAILED) std::abort();
+      mapped_ = {static_cast<std::uint8_t*>(address), offset};
+    }
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      if (!isShared) own_.at(i).resize(sizes.at(i));
+      bytes.at(i) = isShared ? mapped_.subspan(view.offsets.at(i), sizes.at(i))
+                             : std::span<std::uint8_t>(own_.at(i));
+      view.planes.at(i) = bytes.at(i);
+      if (isShared) view.dmaBufs.at(i) = file_.get();
+    }
+  }
+  ~OwnedMemory() {
+    if (!mapped_.empty()) munmap(mapped_.data(), mapped_.size());
+  }
+  OwnedMemory(const OwnedMemory&) = delete;
+  OwnedMemory& operator=(const OwnedMemory&) = delete;
+
+  std::array<std::span<std::uint8_t>, 3> bytes;
   BufferMemory view;
+
+ private:
+  hal::FileDescriptor file_;
+  std::span<std::uint8_t> mapped_;
+  std::array<std::vector<std::uint8_t>, 3> own_;
 };
 
 class FakeStream final : public Stream {
@@ -53,6 +95,7 @@ class FakeStream final : public Stream {
     isSilent_ = frame.isSilent;
     if (isLost_ || isSilent_) return std::nullopt;
     sequence_ += frame.skipped;
+    const std::scoped_lock lock(mutex_);
     if (free_.empty()) {
       ++sequence_;
       ++number_;
@@ -61,6 +104,7 @@ class FakeStream final : public Stream {
     return fill(frame);
   }
   int push(std::size_t index) override {
+    const std::scoped_lock lock(mutex_);
     if (sensor_.pushAnswer == 0) free_.push_back(index);
     return sensor_.pushAnswer;
   }
@@ -68,7 +112,6 @@ class FakeStream final : public Stream {
 
  private:
   std::shared_ptr<OwnedMemory> allocate(const StreamAnswer& answer) const {
-    auto memory = std::make_shared<OwnedMemory>();
     const FrameLayout& layout = *findLayout(answer.fourcc);
     const int planes = planeCount(layout.pixelFormat);
     std::array<std::size_t, 3> sizes{};
@@ -80,11 +123,8 @@ class FakeStream final : public Stream {
     }
     if (!sensor_.arePlanesSeparate) sizes = {sizes[0] + sizes[1] + sizes[2], 0, 0};
     sizes[0] -= std::min(sizes[0], sensor_.missingBytes);
+    auto memory = std::make_shared<OwnedMemory>(sizes, sensor_.isShared);
     memory->view.planeCount = sensor_.arePlanesSeparate ? planes : 1;
-    for (std::size_t i = 0; i < 3; ++i) {
-      memory->bytes.at(i).resize(sizes.at(i));
-      memory->view.planes.at(i) = memory->bytes.at(i);
-    }
     return memory;
   }
 
@@ -111,6 +151,7 @@ class FakeStream final : public Stream {
   hal::Clock& clock_;
   hal::TimePoint due_;
   std::vector<std::shared_ptr<OwnedMemory>> memory_;
+  std::mutex mutex_;  // guards the following
   std::deque<std::size_t> free_;
   std::uint64_t number_ = 0;
   std::uint32_t sequence_ = 3;  // drivers need not begin at 0

@@ -34,6 +34,7 @@ struct FakeSensor {
   std::map<std::pair<int, int>, hal::FrameSize> adjusts;
   std::size_t rowPadding = 0;
   bool arePlanesSeparate = false;
+  bool isShared = false;  ///< buffers have descriptors, which other processes can map
   bool keepsOrientation = true;
   std::size_t missingBytes = 0;  ///< by which buffers are too small
   hal::ColorEncoding encoding;
@@ -45,7 +46,8 @@ struct FakeSensor {
   std::map<std::uint64_t, FakeSensorFrame> frames;
 };
 
-/// A library with fake cameras. Byte i of plane p of frame n is 16 p + i + n. One thread.
+/// A library with fake cameras. Byte i of plane p of frame n is 16 p + i + n. One thread; buffers
+/// may be given back on another.
 class FakeLibcamera final : public hal::libcamera::Library {
  public:
   explicit FakeLibcamera(hal::Clock& clock) : clock_(clock) {}

@@ -35,6 +35,7 @@ struct FakeControl {
   int min = 0, max = 100, step = 1, value = 0;
   std::uint32_t flags = 0;
   std::set<std::uint32_t> menu;
+  std::optional<int> kept;  ///< what it stays at, whatever is set
 };
 
 /// The exceptional properties of one frame. Frames are numbered from 0 at each STREAMON.
@@ -58,6 +59,7 @@ struct FakeVideo {
   std::vector<FakeFormat> formats{FakeFormat{}};
   std::size_t rowPadding = 0;
   bool reportsNoStride = false;
+  bool eventsNeverEnd = false;  ///< once there was one
   std::uint32_t colorspace = V4L2_COLORSPACE_SRGB;
   std::uint32_t encoding = 0;
   std::uint32_t quantization = 0;

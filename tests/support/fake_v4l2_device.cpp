@@ -77,7 +77,7 @@ int FakeV4l2::Device::answer(int fd, unsigned long request, void* argument) {
       return 0;
     case VIDIOC_DQEVENT: {
       if (!eventPending) return -ENOENT;
-      eventPending = false;
+      eventPending = video.eventsNeverEnd;
       auto& event = *static_cast<v4l2_event*>(argument);
       event.type = V4L2_EVENT_SOURCE_CHANGE;
       event.u.src_change.changes = V4L2_EVENT_SRC_CH_RESOLUTION;
@@ -89,6 +89,8 @@ int FakeV4l2::Device::answer(int fd, unsigned long request, void* argument) {
       return queryMenu(*static_cast<v4l2_querymenu*>(argument));
     case VIDIOC_S_CTRL:
       return setControl(*static_cast<v4l2_control*>(argument));
+    case VIDIOC_G_CTRL:
+      return readControl(*static_cast<v4l2_control*>(argument));
     default:
       return -ENOTTY;
   }
@@ -243,7 +245,15 @@ int FakeV4l2::Device::setControl(v4l2_control& wanted) {
   const bool isStep = (wanted.value - found->min) % found->step == 0;
   if (wanted.value < found->min || wanted.value > found->max || !isStep) return -ERANGE;
   if (!found->menu.empty() && !found->menu.contains(u32(wanted.value))) return -EINVAL;
-  found->value = wanted.value;
+  found->value = found->kept.value_or(wanted.value);
+  return 0;
+}
+
+int FakeV4l2::Device::readControl(v4l2_control& read) const {
+  const auto found = std::ranges::find(video.controls, read.id, &FakeControl::id);
+  if (found == video.controls.end()) return -EINVAL;
+  if ((found->flags & V4L2_CTRL_FLAG_WRITE_ONLY) != 0) return -EACCES;
+  read.value = found->value;
   return 0;
 }
 

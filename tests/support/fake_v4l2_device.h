@@ -69,6 +69,7 @@ struct FakeV4l2::Device {
   int queryControl(v4l2_queryctrl& query) const;
   int queryMenu(v4l2_querymenu& query) const;
   int setControl(v4l2_control& control);
+  int readControl(v4l2_control& control) const;
   FakeControl* control(std::uint32_t id);
   void makeFrame(hal::TimePoint time);
   void fill(Buffer& buffer, const FakeFrame& script);

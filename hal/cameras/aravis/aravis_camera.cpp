@@ -11,6 +11,7 @@
 #include "hal/cameras/aravis/frame_numbers.h"
 #include "hal/cameras/aravis/unpack12.h"
 #include "hal/frame_pool.h"
+#include "hal/printable.h"
 #include "hal/image.h"
 #include "hal/returned_buffers.h"
 
@@ -282,7 +283,7 @@ Result<StreamFormat> AravisCamera::start(const StreamRequest& request) {
   Result<std::unique_ptr<Device>> device = library_.open(identity_.id);
   if (!device) return tl::unexpected(named(std::move(device.error()), identity_.id));
   auto session = std::make_unique<Session>(identity_.id, *std::move(device), clock_);
-  identity_.description = session->description();
+  identity_.description = printable(session->description());
   Result<StreamFormat> format = session->begin(library_, options_, request);
   if (format) session_ = std::move(session);
   return format;

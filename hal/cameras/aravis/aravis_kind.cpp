@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "config/parameter_table.h"
 #include "hal/cameras/aravis/aravis_camera.h"
 #include "hal/cameras/aravis/pixel_layout.h"
+#include "hal/printable.h"
 
 namespace pleinair::hal::aravis {
 namespace {
@@ -103,8 +106,8 @@ CameraDescription descriptionOf(const FoundDevice& device, bool isOnlyOne) {
       device.vendor.empty() ? device.model : device.vendor + " " + device.model;
   return {.identity = {.backend = "aravis",
                        .id = isOnlyOne || device.physicalId.empty() ? device.id : device.physicalId,
-                       .description = name},
-          .serial = device.serial,
+                       .description = printable(name)},
+          .serial = printable(device.serial),
           .path = device.physicalId,
           .node = device.address,
           .areModesKnown = false};
@@ -127,6 +130,41 @@ Result<std::vector<CameraDescription>> AravisBackend::list() {
 
 std::unique_ptr<Camera> AravisBackend::make(const std::string& id, Clock& clock) {
   return std::make_unique<AravisCamera>(id, options_, library_, clock);
+}
+
+Result<OfferedModes> AravisBackend::offeredModes(const std::string& id,
+                                                 const StreamRequest& request) {
+  const auto named = [&](Error error) {
+    if (error.subject.empty()) error.subject = "aravis:" + id;
+    return tl::unexpected(std::move(error));
+  };
+  const Result<std::unique_ptr<Device>> device = library_.open(id);
+  if (!device) return named(device.error());
+  const Result<std::vector<std::uint32_t>> offered = (*device)->pixelFormats();
+  if (!offered) return named(offered.error());
+  const Result<RegionBounds> bounds = readBounds(**device);
+  if (!bounds) return named(bounds.error());
+  const Result<const PixelLayout*> layout =
+      chooseLayout(*offered, options_.pixelFormat, request.pixelFormat);
+  if (!layout) return named(layout.error());
+  OfferedModes modes;
+  for (const std::uint32_t pfnc : *offered) {
+    modes.modes.push_back({.layout = layoutName(pfnc),
+                           .size = {bounds->width.max, bounds->height.max},
+                           .periods = {},
+                           .isSupported = findLayout(pfnc) != nullptr});
+  }
+  const FrameSize size = regionSizeFor(*bounds, **layout, request.size);
+  modes.chosen.mode = {.layout = std::string((*layout)->name), .size = size, .periods = {}};
+  modes.chosen.reason = options_.pixelFormat != "auto" ? "camera.aravis.pixel_format is set"
+                        : request.pixelFormat && (*layout)->pixelFormat == *request.pixelFormat
+                            ? "the pixel format asked for"
+                            : "colour comes before grey, and few bits a pixel before many";
+  if (size != FrameSize{bounds->width.max, bounds->height.max}) {
+    modes.chosen.reason +=
+        fmt::format("; a region of {}x{} px", bounds->width.max, bounds->height.max);
+  }
+  return modes;
 }
 
 const CameraKind& cameraKind() {

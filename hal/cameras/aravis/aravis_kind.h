@@ -30,6 +30,8 @@ class AravisBackend final : public CameraBackend {
   /// Waits 1 s for answers from the network.
   Result<std::vector<CameraDescription>> list() override;
   std::unique_ptr<Camera> make(const std::string& id, Clock& clock) override;
+  /// At the device's current binning. Rates are found out by setting them only.
+  Result<OfferedModes> offeredModes(const std::string& id, const StreamRequest& request) override;
 
  private:
   AravisOptions options_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -64,14 +65,15 @@ Result<void> setBinning(Device& device, int factor) {
 
 Result<Region> setRegion(Device& device, const AravisOptions& options, const PixelLayout& layout,
                          std::optional<FrameSize> asked) {
-  const Result<RegionBounds> bounds = device.regionBounds();
+  const Result<RegionBounds> bounds = readBounds(device);
   if (!bounds) return tl::unexpected(bounds.error());
   // A mosaic that begins at an odd pixel, or ends at one, would be another mosaic.
   const bool isEven = isMosaicOrPaired(layout);
   const auto stepOf = [&](int step) { return isEven && step > 0 ? evenStep(step) : step; };
+  const FrameSize size = regionSizeFor(*bounds, layout, asked);
   Region region;
-  region.width = sizeWithin(bounds->width, asked ? asked->width : bounds->width.max, isEven);
-  region.height = sizeWithin(bounds->height, asked ? asked->height : bounds->height.max, isEven);
+  region.width = size.width;
+  region.height = size.height;
   region.x = offsetFor(options.offsetX, region.width, bounds->width.max, stepOf(bounds->xStep));
   region.y = offsetFor(options.offsetY, region.height, bounds->height.max, stepOf(bounds->yStep));
   Result<Region> set = device.setRegion(region);
@@ -146,8 +148,8 @@ Result<void> setValue(Device& device, Control control, ToUnits toUnits) {
     if (Result<void> off = device.setAutomatic(control, false); !off) return off;
   }
   const double wanted = toUnits(*bounds);
-  return device.setValue(control,
-                         std::clamp(std::isnan(wanted) ? 0.0 : wanted, bounds->min, bounds->max));
+  return device.setValue(control, std::clamp(std::isnan(wanted) ? 0.0 : wanted, bounds->min,
+                                             std::max(bounds->min, bounds->max)));
 }
 
 Result<void> setControls(Device& device, const CameraControls& controls) {
@@ -209,6 +211,31 @@ Result<void> setFormat(Device& device, const AravisOptions& options, const Strea
 }
 
 }  // namespace
+
+Result<RegionBounds> readBounds(Device& device) {
+  Result<RegionBounds> bounds = device.regionBounds();
+  if (!bounds) return bounds;
+  const auto isSane = [](Bounds<int>& side, int& offsetStep) {
+    side.min = std::max(side.min, 1);
+    if (side.max < side.min) return false;
+    side.step = std::clamp(side.step, 1, side.max);
+    offsetStep = std::clamp(offsetStep, 0, side.max);
+    // A step may have to be doubled, and sides to be added to offsets.
+    return side.max <= std::numeric_limits<int>::max() / 4;
+  };
+  if (isSane(bounds->width, bounds->xStep) && isSane(bounds->height, bounds->yStep)) return bounds;
+  return tl::unexpected(
+      unsupported(fmt::format("gives regions of {} to {} by {} to {} px", bounds->width.min,
+                              bounds->width.max, bounds->height.min, bounds->height.max),
+                  "update its firmware"));
+}
+
+FrameSize regionSizeFor(const RegionBounds& bounds, const PixelLayout& layout,
+                        std::optional<FrameSize> asked) {
+  const bool isEven = isMosaicOrPaired(layout);
+  return {sizeWithin(bounds.width, asked ? asked->width : bounds.width.max, isEven),
+          sizeWithin(bounds.height, asked ? asked->height : bounds.height.max, isEven)};
+}
 
 Result<Negotiated> setUp(Device& device, const AravisOptions& options,
                          const StreamRequest& request) {

@@ -37,6 +37,15 @@ struct Negotiated {
   std::optional<int> packetBytes;  ///< GigE only
 };
 
+/// The device's bounds, with steps of 1 at least and within them. Errors: kUnsupported if they hold
+/// no region; those of Device.
+Result<RegionBounds> readBounds(Device& device);
+
+/// The size of the region that is read for a request: the largest that is not larger, even where
+/// pixels form a mosaic.
+FrameSize regionSizeFor(const RegionBounds& bounds, const PixelLayout& layout,
+                        std::optional<FrameSize> asked);
+
 /// Sets the device to what is asked for and reads back what it does: binning, pixel format, region,
 /// rate, controls, trigger, packets. Exposure is clamped to the device's range; gain is a share of
 /// it. Errors: kUnsupported, with what the device has; kBusy if another program controls it; those

@@ -26,15 +26,6 @@ constexpr std::array<FrameLayout, 8> kLayouts{{
     {fourccOf("R8  "), PixelFormat::kGrey8, 0},
 }};
 
-std::string textOf(std::uint32_t fourcc) {
-  std::string text;
-  for (int i = 0; i < 4; ++i) {
-    const char letter = static_cast<char>(fourcc >> 8 * i & 0xFF);
-    text += letter >= ' ' && letter <= '~' ? letter : '?';
-  }
-  return text;
-}
-
 std::int64_t distance(FrameSize a, FrameSize b) {
   return std::int64_t{std::abs(a.width - b.width)} + std::abs(a.height - b.height);
 }
@@ -63,6 +54,15 @@ std::span<const FrameLayout> frameLayouts() {
   return kLayouts;
 }
 
+std::string fourccName(std::uint32_t fourcc) {
+  std::string text;
+  for (int i = 0; i < 4; ++i) {
+    const char letter = static_cast<char>(fourcc >> 8 * i & 0xFF);
+    text += letter >= ' ' && letter <= '~' ? letter : '?';
+  }
+  return text;
+}
+
 const FrameLayout* findLayout(std::uint32_t fourcc) {
   const auto* const found = std::ranges::find(kLayouts, fourcc, &FrameLayout::fourcc);
   return found == kLayouts.end() ? nullptr : found;
@@ -84,7 +84,8 @@ Result<StreamWish> chooseFormat(std::span<const OfferedFormat> offered,
     return StreamWish{.fourcc = chosen->fourcc, .size = nearestSize(chosen->sizes, size)};
   }
   std::string all;
-  for (const OfferedFormat& each : offered) all += (all.empty() ? "" : ", ") + textOf(each.fourcc);
+  for (const OfferedFormat& each : offered)
+    all += (all.empty() ? "" : ", ") + fourccName(each.fourcc);
   return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
                               .problem = "has no pixel format that can be read",
                               .remedy = all.empty()

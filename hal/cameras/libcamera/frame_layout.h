@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "hal/cameras/libcamera/library.h"
 #include "hal/error.h"
@@ -23,6 +24,8 @@ struct FrameLayout {
 
 /// The supported formats, the one that is cheapest to paint first.
 std::span<const FrameLayout> frameLayouts();
+/// "NV12"; bytes that are no letters as "?".
+std::string fourccName(std::uint32_t fourcc);
 /// Null if it is not supported.
 const FrameLayout* findLayout(std::uint32_t fourcc);
 

@@ -12,6 +12,7 @@
 #include "hal/cameras/libcamera/frame_layout.h"
 #include "hal/cameras/libcamera/settings.h"
 #include "hal/frame_pool.h"
+#include "hal/printable.h"
 #include "hal/returned_buffers.h"
 
 namespace pleinair::hal::libcamera {
@@ -160,7 +161,7 @@ NextFrame Session::end(NextFrame answer) {
 
 NextFrame Session::lost() {
   return end(CameraLost{.cause = named({.kind = ErrorKind::kDeviceLost,
-                                        .problem = "is unplugged, or its driver is gone",
+                                        .problem = stream_->lossText(),
                                         .remedy = "check its cable"},
                                        id_)});
 }
@@ -283,7 +284,7 @@ Result<StreamFormat> LibcameraCamera::start(const StreamRequest& request) {
   Result<std::unique_ptr<Device>> device = library_.open(identity_.id);
   if (!device) return tl::unexpected(named(std::move(device.error()), identity_.id));
   auto session = std::make_unique<Session>(identity_.id, *std::move(device), clock_);
-  identity_.description = session->description();
+  identity_.description = printable(session->description());
   Result<StreamFormat> format = session->begin(options_, request);
   if (format) session_ = std::move(session);
   return format;

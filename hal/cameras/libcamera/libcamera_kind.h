@@ -22,6 +22,7 @@ class LibcameraBackend final : public CameraBackend {
   std::string_view name() const override { return "libcamera"; }
   Result<std::vector<CameraDescription>> list() override;
   std::unique_ptr<Camera> make(const std::string& id, Clock& clock) override;
+  Result<OfferedModes> offeredModes(const std::string& id, const StreamRequest& request) override;
 
  private:
   LibcameraOptions options_;

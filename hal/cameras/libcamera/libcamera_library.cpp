@@ -10,19 +10,15 @@
 #include <cstring>
 #include <deque>
 #include <limits>
-#include <map>
 #include <mutex>
 #include <string>
 #include <utility>
 
 #include <libcamera/libcamera.h>
 #include <libcamera/property_ids.h>
-#include <linux/dma-buf.h>
-#include <sys/ioctl.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include "hal/cameras/libcamera/library.h"
+#include "hal/cameras/libcamera/mapped_buffer.h"
 
 #define PLEINAIR_LIBCAMERA_VERSION \
   (LIBCAMERA_VERSION_MAJOR * 10000 + LIBCAMERA_VERSION_MINOR * 100 + LIBCAMERA_VERSION_PATCH)
@@ -149,67 +145,16 @@ lc::Transform transformOf(Orientation orientation) {
 }
 #endif
 
-/// Maps the dma-bufs of a frame buffer, each once.
-class MappedBuffer final : public ReadAccess {
- public:
-  static Result<std::shared_ptr<MappedBuffer>> map(const lc::FrameBuffer& buffer) {
-    auto mapped = std::make_shared<MappedBuffer>();
-    const auto& planes = buffer.planes();
-    mapped->memory.planeCount = static_cast<int>(std::min<std::size_t>(planes.size(), 3));
-    for (std::size_t i = 0; i < static_cast<std::size_t>(mapped->memory.planeCount); ++i) {
-      const auto& plane = planes[i];
-      const int fd = plane.fd.get();
-      const std::span<const std::uint8_t> whole = mapped->view(fd);
-      const std::size_t offset =
-          plane.offset == lc::FrameBuffer::Plane::kInvalidOffset ? 0 : plane.offset;
-      if (whole.empty() || offset > whole.size()) {
-        return tl::unexpected(errnoError({}, "its buffers cannot be mapped", errno));
-      }
-      mapped->memory.planes.at(i) =
-          whole.subspan(offset, std::min<std::size_t>(plane.length, whole.size() - offset));
-      mapped->memory.dmaBufs.at(i) = mapped->descriptors_.at(fd);
-      mapped->memory.offsets.at(i) = offset;
-    }
-    return mapped;
+std::vector<BufferPlane> planesOf(const lc::FrameBuffer& buffer) {
+  std::vector<BufferPlane> planes;
+  for (const lc::FrameBuffer::Plane& each : buffer.planes()) {
+    planes.push_back(
+        {.fd = each.fd.get(),
+         .offset = each.offset == lc::FrameBuffer::Plane::kInvalidOffset ? 0 : each.offset,
+         .length = each.length});
   }
-  MappedBuffer() { memory.access = this; }
-  ~MappedBuffer() {
-    for (const auto& [fd, bytes] : mappings_) {
-      munmap(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
-    }
-    for (const auto& [fd, own] : descriptors_) close(own);
-  }
-  MappedBuffer(const MappedBuffer&) = delete;
-  MappedBuffer& operator=(const MappedBuffer&) = delete;
-
-  void beginRead() const override { sync(DMA_BUF_SYNC_START); }
-  void endRead() const override { sync(DMA_BUF_SYNC_END); }
-
-  BufferMemory memory;
-
- private:
-  /// Memory that is no dma-buf needs none.
-  void sync(std::uint64_t flag) const {
-    dma_buf_sync request{};
-    request.flags = DMA_BUF_SYNC_READ | flag;
-    for (const auto& [fd, own] : descriptors_) {
-      while (ioctl(own, DMA_BUF_IOCTL_SYNC, &request) < 0 && (errno == EINTR || errno == EAGAIN)) {
-      }
-    }
-  }
-  std::span<const std::uint8_t> view(int fd) {
-    if (const auto found = mappings_.find(fd); found != mappings_.end()) return found->second;
-    const off_t size = lseek(fd, 0, SEEK_END);
-    if (size <= 0) return {};
-    const auto bytes = static_cast<std::size_t>(size);
-    void* const address = mmap(nullptr, bytes, PROT_READ, MAP_SHARED, fd, 0);
-    if (address == MAP_FAILED) return {};
-    descriptors_[fd] = dup(fd);  // frames outlive libcamera's buffers
-    return mappings_[fd] = {static_cast<const std::uint8_t*>(address), bytes};
-  }
-  std::map<int, std::span<const std::uint8_t>> mappings_;
-  std::map<int, int> descriptors_;
-};
+  return planes;
+}
 
 /// What libcamera's thread posts, and the camera's thread takes. Signals are connected to it, and
 /// not to an object of libcamera's, whose slots would wait for an event loop.
@@ -271,7 +216,7 @@ class LibcameraStream final : public Stream {
       return tl::unexpected(errnoError({}, "cannot allocate buffers", -answer));
     }
     for (const std::unique_ptr<lc::FrameBuffer>& buffer : allocator_->buffers(stream_)) {
-      auto mapped = MappedBuffer::map(*buffer);
+      auto mapped = MappedBuffer::map(planesOf(*buffer));
       if (!mapped) return tl::unexpected(mapped.error());
       std::unique_ptr<lc::Request> request = camera_->createRequest(requests_.size());
       if (!request || request->addBuffer(stream_, buffer.get()) < 0) {
@@ -570,6 +515,10 @@ class SystemLibrary final : public Library {
 Library& systemLibrary() {
   static SystemLibrary library;
   return library;
+}
+
+bool hasSystemLibrary() {
+  return true;
 }
 
 }  // namespace pleinair::hal::libcamera

@@ -103,6 +103,8 @@ class Stream {
   virtual int push(std::size_t index) = 0;
   /// Whether libcamera has reported that the camera was unplugged. It does not always.
   virtual bool isLost() const = 0;
+  /// Why, once it is lost.
+  virtual std::string lossText() const { return "is unplugged, or its driver is gone"; }
 };
 
 /// An open camera, of one thread.
@@ -138,8 +140,10 @@ class Library {
   virtual Result<std::unique_ptr<Device>> open(const std::string& id) = 0;
 };
 
-/// The library of this build. Without libcamera, list() finds nothing and open() answers
-/// kUnsupported.
+/// The library of this build, in this process. Without libcamera, list() finds nothing and open()
+/// answers kUnsupported.
 Library& systemLibrary();
+/// Whether this build has libcamera.
+bool hasSystemLibrary();
 
 }  // namespace pleinair::hal::libcamera

@@ -22,4 +22,8 @@ Library& systemLibrary() {
   return library;
 }
 
+bool hasSystemLibrary() {
+  return false;
+}
+
 }  // namespace pleinair::hal::libcamera

@@ -4,8 +4,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <linux/videodev2.h>
@@ -29,8 +31,10 @@ std::optional<Control> findControl(const Device& device, std::uint32_t id) {
   if ((query.flags & (V4L2_CTRL_FLAG_DISABLED | V4L2_CTRL_FLAG_READ_ONLY)) != 0) {
     return std::nullopt;
   }
-  return Control{
-      .id = id, .min = query.minimum, .max = query.maximum, .step = std::max(query.step, 1)};
+  return Control{.id = id,
+                 .min = query.minimum,
+                 .max = std::max(query.minimum, query.maximum),
+                 .step = std::max(query.step, 1)};
 }
 
 std::int64_t onStep(const Control& control, double wanted) {
@@ -43,15 +47,24 @@ std::int64_t onStep(const Control& control, double wanted) {
   return value > control.max ? value - control.step : value;
 }
 
-Result<void> set(const Device& device, std::uint32_t id, std::int64_t value,
-                 const std::string& name) {
+/// Sets a control and reads it back: some devices take a value without a word and keep another.
+/// Gives a line where that differs; empty: it is as set.
+Result<std::string> set(const Device& device, const Control& set, std::int64_t value,
+                        const std::string& name) {
   v4l2_control control{};
-  control.id = id;
+  control.id = set.id;
   control.value = static_cast<std::int32_t>(value);
   if (const int answer = device.ask(VIDIOC_S_CTRL, control); answer < 0) {
     return tl::unexpected(device.failure("cannot set its " + name, answer));
   }
-  return {};
+  control = {};
+  control.id = set.id;
+  // Not all can be read.
+  if (device.ask(VIDIOC_G_CTRL, control) < 0) return std::string();
+  if (std::abs(control.value - value) < set.step) return std::string();
+  return "keeps its " + name + " at " + std::to_string(control.value) + " where " +
+         std::to_string(value) + " was set (" + std::to_string(set.min) + " to " +
+         std::to_string(set.max) + ")";
 }
 
 bool hasMenuItem(const Device& device, const Control& control, std::int64_t item) {
@@ -130,19 +143,20 @@ Error missing(const Device& device, const std::string& what) {
                                 : "remove the setting; the device has " + has};
 }
 
-Result<void> setAutomatic(const Device& device, const Pair& pair) {
+Result<std::string> setAutomatic(const Device& device, const Pair& pair) {
   if (!pair.loop || !pair.loopOn) {
     return tl::unexpected(missing(device, "automatic " + pair.name));
   }
-  return set(device, pair.loop->id, *pair.loopOn, pair.name);
+  return set(device, *pair.loop, *pair.loopOn, "automatic " + pair.name);
 }
 
-Result<void> setValue(const Device& device, const Pair& pair, double value) {
+Result<std::string> setValue(const Device& device, const Pair& pair, double value) {
   if (!pair.value) return tl::unexpected(missing(device, pair.name));
   if (pair.loop && pair.loopOff) {
-    if (Result<void> off = set(device, pair.loop->id, *pair.loopOff, pair.name); !off) return off;
+    Result<std::string> off = set(device, *pair.loop, *pair.loopOff, "automatic " + pair.name);
+    if (!off || !off->empty()) return off;
   }
-  return set(device, pair.value->id, onStep(*pair.value, value), pair.name);
+  return set(device, *pair.value, onStep(*pair.value, value), pair.name);
 }
 
 /// Converts a share of a control's range to the control's units.
@@ -153,32 +167,94 @@ double ofRange(const Pair& pair, double share) {
 }
 
 template <class T, class ToUnits>
-Result<void> apply(const Device& device, const Pair& pair, const AutomaticOr<T>& wanted,
-                   ToUnits toUnits) {
+Result<std::string> apply(const Device& device, const Pair& pair, const AutomaticOr<T>& wanted,
+                          ToUnits toUnits) {
   if (std::holds_alternative<Automatic>(wanted)) return setAutomatic(device, pair);
   return setValue(device, pair, toUnits(std::get<T>(wanted)));
 }
 
+std::string_view nameOf(PowerLine powerLine) {
+  switch (powerLine) {
+    case PowerLine::kOff:
+      return "off";
+    case PowerLine::k50Hz:
+      return "50";
+    case PowerLine::k60Hz:
+      return "60";
+    case PowerLine::kAuto:
+      return "auto";
+  }
+  return "";
+}
+
+std::int64_t itemOf(PowerLine powerLine) {
+  switch (powerLine) {
+    case PowerLine::k50Hz:
+      return V4L2_CID_POWER_LINE_FREQUENCY_50HZ;
+    case PowerLine::k60Hz:
+      return V4L2_CID_POWER_LINE_FREQUENCY_60HZ;
+    case PowerLine::kAuto:
+      return V4L2_CID_POWER_LINE_FREQUENCY_AUTO;
+    default:
+      return V4L2_CID_POWER_LINE_FREQUENCY_DISABLED;
+  }
+}
+
+Result<std::string> setPowerLine(const Device& device, PowerLine wanted) {
+  const std::optional<Control> control = findControl(device, V4L2_CID_POWER_LINE_FREQUENCY);
+  if (control && hasMenuItem(device, *control, itemOf(wanted))) {
+    return set(device, *control, itemOf(wanted), "power_line");
+  }
+  std::string has;
+  for (const PowerLine each :
+       {PowerLine::kOff, PowerLine::k50Hz, PowerLine::k60Hz, PowerLine::kAuto}) {
+    if (!control || !hasMenuItem(device, *control, itemOf(each))) continue;
+    has += has.empty() ? "" : ", ";
+    has += nameOf(each);
+  }
+  return tl::unexpected(
+      Error{.kind = ErrorKind::kUnsupported,
+            .subject = device.node(),
+            .problem = "has no power_line \"" + std::string(nameOf(wanted)) + "\" (" +
+                       device.capability().card + ")",
+            .remedy = has.empty() ? "remove camera.v4l2.power_line; the device has no such control"
+                                  : "set camera.v4l2.power_line to one of " + has});
+}
+
 }  // namespace
 
-Result<void> setControls(const Device& device, const CameraControls& controls) {
+Result<std::string> setControls(const Device& device, const CameraControls& controls,
+                                std::optional<PowerLine> powerLine) {
+  std::string differences;
+  // Notes a difference; false after an error.
+  const auto isDone = [&](const Result<std::string>& done) {
+    if (done && !done->empty()) differences += (differences.empty() ? "" : "; ") + *done;
+    return done.has_value();
+  };
+  const auto share = [&](const Pair& pair, const AutomaticOr<double>& wanted) {
+    return apply(device, pair, wanted, [&](double part) { return ofRange(pair, part); });
+  };
+  if (powerLine) {
+    // Before the exposure, which is a multiple of the lamps' period for some devices.
+    if (auto done = setPowerLine(device, *powerLine); !isDone(done)) return done;
+  }
   if (controls.exposure) {
     const auto ticks = [](Duration time) { return ExposureTicks(time).count(); };
     auto done = apply(device, exposurePair(device), *controls.exposure, ticks);
-    if (!done) return done;
+    if (!isDone(done)) return done;
   }
-  const auto applyShare = [&](const Pair& pair, const AutomaticOr<double>& wanted) {
-    return apply(device, pair, wanted, [&](double share) { return ofRange(pair, share); });
-  };
   if (controls.gain) {
-    if (auto done = applyShare(gainPair(device), *controls.gain); !done) return done;
+    if (auto done = share(gainPair(device), *controls.gain); !isDone(done)) return done;
   }
   if (controls.focus) {
-    if (auto done = applyShare(focusPair(device), *controls.focus); !done) return done;
+    if (auto done = share(focusPair(device), *controls.focus); !isDone(done)) return done;
   }
-  if (!controls.whiteBalance) return {};
-  return apply(device, whiteBalancePair(device), *controls.whiteBalance,
-               [](double kelvin) { return kelvin; });
+  if (controls.whiteBalance) {
+    auto done = apply(device, whiteBalancePair(device), *controls.whiteBalance,
+                      [](double kelvin) { return kelvin; });
+    if (!isDone(done)) return done;
+  }
+  return differences;
 }
 
 }  // namespace pleinair::hal::v4l2

@@ -10,6 +10,7 @@
 #include "hal/cameras/v4l2/device.h"
 #include "hal/cameras/v4l2/modes.h"
 #include "hal/v4l2/capability.h"
+#include "hal/v4l2/written_nodes.h"
 
 namespace pleinair::hal::v4l2 {
 namespace {
@@ -136,6 +137,7 @@ class Listing {
  private:
   std::optional<CameraDescription> describe(const std::string& name) {
     const std::string node = "/dev/" + name;
+    if (isWritten(node)) return std::nullopt;  // its picture is the program's own
     const Result<Device> device = Device::open(system_.calls, node);
     if (!device && device.error().kind == ErrorKind::kUnsupported) return std::nullopt;
     // One end of a pipeline that the media controller sets up: libcamera has its sensors.

@@ -9,9 +9,9 @@
 namespace pleinair::hal::v4l2 {
 
 /// The connected cameras, by node number, with their modes. Nodes that capture no video (metadata,
-/// outputs, codecs, radio) are skipped, and so are loopback devices without a feeder, and ends of
-/// pipelines that the media controller sets up (V4L2_CAP_IO_MC), which libcamera drives. A camera
-/// that cannot be queried is listed with its problem.
+/// outputs, codecs, radio) are skipped, and so are loopback devices without a feeder or fed by this
+/// process, and ends of pipelines that the media controller sets up (V4L2_CAP_IO_MC), which
+/// libcamera drives. A camera that cannot be queried is listed with its problem.
 ///
 /// The id is the first of these that exists:
 /// 1. the name of udev's link in /dev/v4l/by-id (maker, model and serial; "…-video-index0"), unless

@@ -54,7 +54,8 @@ std::array<PlanePlace, 3> planePlaces(const Layout& layout, FrameSize size,
     const auto rows = static_cast<std::size_t>(planeRows(format, plane, size.height));
     if (isShared) {
       const bool isHalf = format == PixelFormat::kI420 && plane > 0;
-      place.strideBytes = isHalf ? std::max(lumaStride / 2, packed) : lumaStride;
+      // Two bytes of chroma stand for the last column of an odd width, too.
+      place.strideBytes = std::max(isHalf ? lumaStride / 2 : lumaStride, packed);
       place.offsetBytes = end;
       end += place.strideBytes * rows;
     } else {

@@ -6,6 +6,7 @@
 #include <string>
 #include <tuple>
 
+#include <fmt/format.h>
 #include <linux/videodev2.h>
 
 #include "hal/cameras/v4l2/format.h"
@@ -81,12 +82,67 @@ Candidate candidateOf(const Device& device, const Layout& layout, std::optional<
   const std::vector<Duration> periods =
       size ? enumeratePeriods(device, layout.fourcc, *size) : std::vector<Duration>();
   const Duration wanted = request.framePeriod.value_or(kFluentPeriod);
-  return {.choice = {.layout = &layout, .size = size, .period = request.framePeriod},
+  return {.choice = {.layout = &layout,
+                     .size = size,
+                     .period = request.framePeriod,
+                     .periods = periods,
+                     .reason = {}},
           .cost = {request.pixelFormat && *request.pixelFormat != layout.pixelFormat,
                    layout.pixelFormat == PixelFormat::kGrey8 &&
                        request.pixelFormat != PixelFormat::kGrey8,
                    size && wantedSize ? distance(*size, *wantedSize) : 0,
                    shortfall(periods, wanted), layout.isJpeg, &layout - layouts().data()}};
+}
+
+std::string rateText(Duration period) {
+  return fmt::format("{:.4g}",
+                     1e9 / static_cast<double>(std::max<Duration::rep>(period.count(), 1)));
+}
+
+std::string sizeText(FrameSize size) {
+  return fmt::format("{}x{}", size.width, size.height);
+}
+
+/// The criterion of Cost that decided between two candidates, the better one first.
+std::string decisionText(const Candidate& best, const Candidate& next, Duration wantedPeriod) {
+  const std::string other = fourccText(next.choice.layout->fourcc);
+  const auto [format, grey, size, late, jpeg, rank] = best.cost;
+  const auto [nextFormat, nextGrey, nextSize, nextLate, nextJpeg, nextRank] = next.cost;
+  if (format != nextFormat) return fmt::format("{} is not the pixel format asked for", other);
+  if (grey != nextGrey) return other + " has no colour";
+  if (size != nextSize) {
+    return fmt::format("{} comes no nearer than {} px", other,
+                       sizeText(next.choice.size.value_or(FrameSize{})));
+  }
+  if (late != nextLate) {
+    return fmt::format("{} reaches {} of {} frames/s at that size", other,
+                       rateText(next.choice.periods.front()), rateText(wantedPeriod));
+  }
+  if (jpeg != nextJpeg) return other + " is compressed";
+  return other + " costs more to paint";
+}
+
+/// Why the best of the candidates is that: what it lacks of the wish, and what the next best lacks
+/// beside it.
+std::string reasonText(const std::vector<Candidate>& candidates, const Candidate& best,
+                       std::optional<FrameSize> wantedSize, Duration wantedPeriod) {
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
+  const std::optional<FrameSize> size = best.choice.size;
+  if (size && wantedSize && *size != *wantedSize) {
+    add(fmt::format("nearest to {} px", sizeText(*wantedSize)));
+  }
+  if (std::get<3>(best.cost) > Duration::zero()) {
+    add(fmt::format("no mode of that size is faster than {} frames/s",
+                    rateText(best.choice.periods.front())));
+  }
+  const Candidate* next = nullptr;
+  for (const Candidate& each : candidates) {
+    if (each.choice.layout == best.choice.layout) continue;
+    if (next == nullptr || each.cost < next->cost) next = &each;
+  }
+  add(next == nullptr ? "no other format of it is read" : decisionText(best, *next, wantedPeriod));
+  return text;
 }
 
 Error nothingToChoose(const Device& device, const std::vector<DeviceFormat>& formats) {
@@ -170,24 +226,25 @@ std::vector<CameraMode> modesOf(const Device& device) {
 Result<ModeChoice> chooseMode(const Device& device, const StreamRequest& request) {
   const std::vector<DeviceFormat> formats = enumerateFormats(device);
   const std::optional<FrameSize> wantedSize = request.size ? request.size : currentSize(device);
-  std::optional<Candidate> best;
-  const auto consider = [&](Candidate candidate) {
-    if (!best || candidate.cost < best->cost) best = candidate;
-  };
+  std::vector<Candidate> candidates;
   for (const DeviceFormat& format : formats) {
     const Layout* layout = findLayout(format.fourcc);
     if (layout == nullptr) continue;
     if (format.sizes.empty()) {
-      consider(candidateOf(device, *layout, wantedSize, request, wantedSize));
+      candidates.push_back(candidateOf(device, *layout, wantedSize, request, wantedSize));
     }
     for (const SizeRange& range : format.sizes) {
       const FrameSize size = range.nearestTo(wantedSize.value_or(range.largest));
       if (!isAcceptedSize(size)) continue;
-      consider(candidateOf(device, *layout, size, request, wantedSize));
+      candidates.push_back(candidateOf(device, *layout, size, request, wantedSize));
     }
   }
-  if (!best) return tl::unexpected(nothingToChoose(device, formats));
-  return best->choice;
+  if (candidates.empty()) return tl::unexpected(nothingToChoose(device, formats));
+  const Candidate& best = *std::ranges::min_element(candidates, {}, &Candidate::cost);
+  ModeChoice choice = best.choice;
+  choice.reason =
+      reasonText(candidates, best, request.size, request.framePeriod.value_or(kFluentPeriod));
+  return choice;
 }
 
 }  // namespace pleinair::hal::v4l2

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hal/camera.h"
@@ -39,6 +40,8 @@ struct ModeChoice {
   const Layout* layout = nullptr;
   std::optional<FrameSize> size;  ///< unset: the device's current size
   std::optional<Duration> period;
+  std::vector<Duration> periods;  ///< that the device lists for it, shortest first
+  std::string reason;             ///< what decided between it and the next best, a line
 };
 
 /// The mode nearest to the request. The criteria, in this order: the requested pixel format;

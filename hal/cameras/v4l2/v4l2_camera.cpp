@@ -26,6 +26,10 @@ namespace {
 /// The pause before a driver is polled again that signalled readiness but had no buffer.
 constexpr Duration kRetryInterval = std::chrono::milliseconds(1);
 
+/// What is taken at a time of events that wait, for drivers that never run out of them. The kernel
+/// keeps fewer.
+constexpr int kMostEvents = 64;
+
 FrameHealth healthOf(const Filled& filled, const Negotiated& negotiated) {
   if ((filled.flags & V4L2_BUF_FLAG_ERROR) != 0) return FrameHealth::kCorrupt;
   for (int i = 0; i < negotiated.layout->memoryPlanes; ++i) {
@@ -50,7 +54,8 @@ std::shared_ptr<const Image> blackPicture(FrameFormat format) {
 /// A camera from start() to stop(). One thread; frames may be dropped on any.
 class Session {
  public:
-  Session(Device device, const StreamRequest& request, Clock& clock);
+  Session(Device device, const StreamRequest& request, std::optional<PowerLine> powerLine,
+          Clock& clock);
 
   /// Sets the controls, negotiates and starts. Errors: as Camera::start().
   Result<StreamFormat> begin();
@@ -77,6 +82,7 @@ class Session {
 
   Device device_;
   StreamRequest request_;
+  std::optional<PowerLine> powerLine_;
   Clock& clock_;
   Negotiated negotiated_;
   Chronology chronology_;
@@ -89,8 +95,9 @@ class Session {
   std::optional<NextFrame> ended_;
 };
 
-Session::Session(Device device, const StreamRequest& request, Clock& clock)
-    : device_(std::move(device)), request_(request), clock_(clock) {}
+Session::Session(Device device, const StreamRequest& request, std::optional<PowerLine> powerLine,
+                 Clock& clock)
+    : device_(std::move(device)), request_(request), powerLine_(powerLine), clock_(clock) {}
 
 Result<StreamFormat> Session::begin() {
   if (const Result<void> started = restart(); !started) return tl::unexpected(started.error());
@@ -107,7 +114,9 @@ Result<void> Session::restart() {
   Result<Negotiated> negotiated = negotiate(device_, request_);
   if (!negotiated) return tl::unexpected(std::move(negotiated.error()));
   negotiated_ = *std::move(negotiated);
-  if (Result<void> set = setControls(device_, request_.controls); !set) return set;
+  Result<std::string> differences = setControls(device_, request_.controls, powerLine_);
+  if (!differences) return tl::unexpected(std::move(differences.error()));
+  negotiated_.stream.warning = *std::move(differences);
   return startStream();
 }
 
@@ -150,6 +159,7 @@ NextFrame Session::next(TimePoint deadline) {
   for (;;) {
     if (ended_) return *ended_;
     if (std::optional<NextFrame> answer = step(deadline)) return *std::move(answer);
+    if (clock_.now() >= deadline) return CameraTimeout{};  // a source that changes without end
   }
 }
 
@@ -188,7 +198,7 @@ std::optional<NextFrame> Session::readFrame(TimePoint deadline) {
 bool Session::isSourceChanged() const {
   bool isChanged = false;
   v4l2_event event{};
-  while (device_.ask(VIDIOC_DQEVENT, event) >= 0) {
+  for (int i = 0; i < kMostEvents && device_.ask(VIDIOC_DQEVENT, event) >= 0; ++i) {
     isChanged |= event.type == V4L2_EVENT_SOURCE_CHANGE &&
                  (event.u.src_change.changes & V4L2_EVENT_SRC_CH_RESOLUTION) != 0;
     event = {};
@@ -299,11 +309,10 @@ void Session::decodePixels(const Filled& filled, CapturedFrame& frame) {
   frame.lease = lastLease_;
 }
 
-V4l2Camera::V4l2Camera(const std::string& id, System system, Clock& clock,
-                       FrameMemoryOptions memory)
+V4l2Camera::V4l2Camera(const std::string& id, System system, Clock& clock, V4l2Options options)
     : system_(system),
       clock_(clock),
-      memory_(memory),
+      options_(options),
       identity_{.backend = "v4l2", .id = id, .description = "V4L2 camera " + id} {}
 
 V4l2Camera::~V4l2Camera() = default;
@@ -321,15 +330,15 @@ Result<StreamFormat> V4l2Camera::start(const StreamRequest& request) {
   identity_.description = device->capability().card + " at " + *node;
   StreamRequest wanted = request;
   std::string problem;
-  if (!wanted.allocator && memory_.allocator) {
-    Result<std::shared_ptr<FrameAllocator>> allocator = openAllocator(*memory_.allocator);
+  if (!wanted.allocator && options_.allocator) {
+    Result<std::shared_ptr<FrameAllocator>> allocator = openAllocator(*options_.allocator);
     if (allocator) {
       wanted.allocator = *std::move(allocator);
     } else {
       problem = allocator.error().message();
     }
   }
-  auto session = std::make_unique<Session>(*std::move(device), wanted, clock_);
+  auto session = std::make_unique<Session>(*std::move(device), wanted, options_.powerLine, clock_);
   Result<StreamFormat> format = session->begin();
   if (!format) return format;
   if (format->memoryNote.empty()) format->memoryNote = std::move(problem);

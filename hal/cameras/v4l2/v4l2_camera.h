@@ -6,6 +6,7 @@
 #include <string>
 
 #include "hal/camera.h"
+#include "hal/cameras/v4l2/controls.h"
 #include "hal/cameras/v4l2/device_nodes.h"
 #include "hal/frame_memory/allocators.h"
 
@@ -13,9 +14,11 @@ namespace pleinair::hal::v4l2 {
 
 class Session;
 
-struct FrameMemoryOptions {
+/// What [camera.v4l2] sets.
+struct V4l2Options {
   /// Whose memory frames lie in; unset: the device's own.
   std::optional<AllocatorKind> allocator;
+  std::optional<PowerLine> powerLine;  ///< unset: as the device has it
 };
 
 /// A V4L2 device (docs/cameras.md): memory-mapped buffers, exported as dma-bufs if the driver can
@@ -23,8 +26,9 @@ struct FrameMemoryOptions {
 /// driver takes it, over the single- or the multi-planar interface.
 ///
 /// start() selects the mode nearest to the request (hal/cameras/v4l2/modes.h), reads back the
-/// format that the driver set, and sets the controls. Its errors are those of Camera::start();
-/// kNotFound names the available cameras.
+/// format that the driver set, and sets the controls (StreamFormat::warning tells where the driver
+/// keeps another value). Its errors are those of Camera::start(); kNotFound names the available
+/// cameras.
 ///
 /// Frames lend the driver's buffers. If one more lease would leave the driver without a buffer, the
 /// frame is copied instead: a consumer that holds frames costs time, but never stops the stream.
@@ -38,7 +42,7 @@ struct FrameMemoryOptions {
 class V4l2Camera final : public Camera {
  public:
   /// `id`: as V4l2Backend::list() gives it, or a node's path. No device is opened before start().
-  V4l2Camera(const std::string& id, System system, Clock& clock, FrameMemoryOptions memory = {});
+  V4l2Camera(const std::string& id, System system, Clock& clock, V4l2Options options = {});
   ~V4l2Camera() override;
   V4l2Camera(const V4l2Camera&) = delete;
   V4l2Camera& operator=(const V4l2Camera&) = delete;
@@ -51,7 +55,7 @@ class V4l2Camera final : public Camera {
  private:
   System system_;
   Clock& clock_;
-  FrameMemoryOptions memory_;
+  V4l2Options options_;
   CameraIdentity identity_;
   std::unique_ptr<Session> session_;  ///< while streaming
 };

@@ -16,19 +16,21 @@ namespace pleinair::hal::v4l2 {
 /// node's path, such as "/dev/video0".
 class V4l2Backend final : public CameraBackend {
  public:
-  explicit V4l2Backend(System system = kernelSystem(), FrameMemoryOptions memory = {})
-      : system_(system), memory_(memory) {}
+  explicit V4l2Backend(System system = kernelSystem(), V4l2Options options = {})
+      : system_(system), options_(options) {}
 
   std::string_view name() const override { return "v4l2"; }
   Result<std::vector<CameraDescription>> list() override;
   std::unique_ptr<Camera> make(const std::string& id, Clock& clock) override;
+  Result<OfferedModes> offeredModes(const std::string& id, const StreamRequest& request) override;
 
  private:
   System system_;
-  FrameMemoryOptions memory_;
+  V4l2Options options_;
 };
 
-/// V4L2 devices. Its table has where frames lie; size, rate and controls are those of all cameras.
+/// V4L2 devices. Its table has where frames lie and the mains' frequency; size, rate and the other
+/// controls are those of all cameras.
 const CameraKind& cameraKind();
 
 }  // namespace pleinair::hal::v4l2

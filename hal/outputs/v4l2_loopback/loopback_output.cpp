@@ -13,6 +13,7 @@
 #include "hal/file_descriptor.h"
 #include "hal/outputs/v4l2_loopback/negotiation.h"
 #include "hal/v4l2/capability.h"
+#include "hal/v4l2/written_nodes.h"
 
 namespace pleinair::hal {
 namespace {
@@ -43,6 +44,7 @@ class LoopbackOutput final : public MemoryOutput {
     if (!opened) return tl::unexpected(opened.error());
     device_ = std::move(opened->node);
     descriptor_ = std::move(opened->descriptor);
+    written_.emplace(device_);
     const Result<loopback::Agreement> agreement =
         loopback::negotiate(calls(), descriptor_.get(), device_, request, layout_);
     if (!agreement) return tl::unexpected(agreement.error());
@@ -76,6 +78,7 @@ class LoopbackOutput final : public MemoryOutput {
     assert(descriptor_);
     stopStream();
     descriptor_.reset();
+    written_.reset();
     return {};
   }
 
@@ -110,6 +113,7 @@ class LoopbackOutput final : public MemoryOutput {
   std::optional<PixelFormat> layout_;
   V4l2System system_;
   FileDescriptor descriptor_;
+  std::optional<v4l2::WrittenNode> written_;
   loopback::FrameLayout picture_;
   std::vector<std::uint8_t> frame_;
   std::uint64_t skipped_ = 0;

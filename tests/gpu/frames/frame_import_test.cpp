@@ -67,7 +67,10 @@ TEST_P(RealImports, EqualUploadsToTheBitWithoutACopy) {
   }
   const ShaderLibrary library;
   FrameUploader reference(library);
-  CameraFrames frames(library, context_->info());
+  // As a hardware renderer, which imports; a software renderer reads memory in place instead.
+  auto info = context_->info();
+  info.isSoftware = false;
+  CameraFrames frames(library, info);
   settle(frames, buffers[0]->frame({.pool = pool, .index = 0}));
   RecordProperty("allocator", allocator_->name());
   ASSERT_EQ(frames.status().path, FramePath::kImported)

@@ -1,5 +1,6 @@
 """A sensor behind a pipeline, vimc, through libcamera: found by `auto`, listed once, in the colours of its pattern and the
-size that libcamera gives it; unbound in mid-stream, of which libcamera says nothing, and bound again."""
+size that libcamera gives it; unbound in mid-stream, of which libcamera says nothing, and bound again at once, at which it
+ends its process."""
 import json
 
 import colour_bars
@@ -41,7 +42,7 @@ def check_listing(guest):
     found = [f"{camera['backend']}:{camera['id']}" for camera in devices["cameras"]]
     print("cameras:", ", ".join(found))
     assert len(set(found)) == len(found), found
-    assert found and all(name.startswith("libcamera:") for name in found), found
+    assert found and all(name.startswith("libcamera:") for name in found), (found, devices["problems"])
 
 
 def check_colours(guest):

@@ -72,6 +72,34 @@ TEST(Inventory, IsALineADeviceAndALayout) {
             "    -> join the group input\n");
 }
 
+Inventory withModes() {
+  Inventory inventory = full();
+  inventory.asked = {.size = hal::FrameSize{640, 480}, .framePeriod = nanoseconds(33333333)};
+  inventory.cameras.cameras[0].chosen = {
+      .mode = {.layout = "YUYV", .size = {640, 480}, .periods = {nanoseconds(33366667)}},
+      .reason = "no other format of it is read"};
+  return inventory;
+}
+
+TEST(Inventory, OfModesIsOfCamerasAloneAndTellsTheChoice) {
+  EXPECT_EQ(asText(withModes()),
+            "Cameras (--camera ID), asked for 640x480 at 30\n"
+            "  v4l2:usb-046d  C920  /dev/video0  serial:A1\n"
+            "    YUYV  640x480 at 29.97, 10; 1280x720\n"
+            "    H264  1920x1080 (not supported)\n"
+            "    takes YUYV 640x480 at 29.97: no other format of it is read\n"
+            "  v4l2:usb-2  /dev/video2\n"
+            "    cannot open: Permission denied\n"
+            "    -> join the group video\n");
+  const nlohmann::json document = nlohmann::json::parse(asJson(withModes()));
+  const nlohmann::json& chosen = document["cameras"][0]["chosen"];
+  EXPECT_EQ(chosen["layout"], "YUYV");
+  EXPECT_EQ(chosen["width"], 640);
+  EXPECT_NEAR(chosen["rate"].get<double>(), 29.97, 1e-4);
+  EXPECT_EQ(chosen["reason"], "no other format of it is read");
+  EXPECT_TRUE(document["cameras"][1]["chosen"].is_null());
+}
+
 TEST(Inventory, SaysWhatToDoWhereThereIsNothing) {
   Inventory empty;
   empty.outputs = {{.kind = "window",

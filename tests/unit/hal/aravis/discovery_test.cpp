@@ -35,6 +35,22 @@ TEST_F(AravisDiscoveryTest, ListsEachCameraUnderALastingName) {
   EXPECT_FALSE(cameras->at(1).areModesKnown);
 }
 
+TEST_F(AravisDiscoveryTest, TellsModesAndTheOneThatIsTaken) {
+  // Mono8, BayerRG8, BayerRG12p, and one that is not read.
+  library_.plug({.id = "Fake-Cam-1", .formats = {0x01080001, 0x01080009, 0x010C0059, 0x02100032}});
+  AravisBackend backend({}, {}, library_);
+  const auto modes = backend.offeredModes("Fake-Cam-1", {.size = FrameSize{66, 49}});
+  ASSERT_TRUE(modes) << modes.error().message();
+  ASSERT_EQ(modes->modes.size(), 4u);
+  EXPECT_EQ(modes->modes[0].layout, "Mono8");
+  EXPECT_EQ(modes->modes[0].size, (FrameSize{128, 96}));
+  EXPECT_EQ(modes->chosen.mode.layout, "BayerRG8");
+  EXPECT_EQ(modes->chosen.mode.size, (FrameSize{64, 48}));
+  EXPECT_EQ(modes->chosen.reason,
+            "colour comes before grey, and few bits a pixel before many; a region of 128x96 px");
+  EXPECT_FALSE(backend.offeredModes("Fake-Cam-2", {}));
+}
+
 TEST_F(AravisDiscoveryTest, TellsCamerasOfOneNameApart) {
   library_.plug({.id = "Fake-Cam-0", .physicalId = "aa:01", .address = "10.0.0.2"});
   library_.plug({.id = "Fake-Cam-0", .physicalId = "aa:02", .address = "10.0.0.3"});

@@ -26,6 +26,15 @@ TEST_F(AravisSetupTest, TakesTheMiddleOfTheSensor) {
   EXPECT_EQ(library_.told.region, (Region{0, 0, 128, 96})) << "all of it";
 }
 
+TEST_F(AravisSetupTest, RefusesBoundsThatHoldNoRegion) {
+  fake.bounds.width = {128, 16, 4};
+  EXPECT_EQ(failure(),
+            "aravis:Fake-Cam-1: gives regions of 128 to 16 by 2 to 96 px; update its firmware");
+  fake.bounds.width = {16, 128, 0};  // no step
+  fake.bounds.xStep = -4;
+  EXPECT_EQ(start({.size = FrameSize{66, 49}})->frame.size, (FrameSize{66, 48}));
+}
+
 TEST_F(AravisSetupTest, KeepsMosaicsInPhase) {
   fake.formats = {0x01080009};
   fake.bounds = {.width = {1, 127, 1}, .height = {1, 95, 1}, .xStep = 1, .yStep = 1};

@@ -71,6 +71,13 @@ TEST_F(V4l2Controls, AreClampedAndOnSteps) {
   EXPECT_EQ(value(V4L2_CID_WHITE_BALANCE_TEMPERATURE), 6500);
 }
 
+TEST_F(V4l2Controls, OfAnEmptyRangeAreItsLeast) {
+  plug({.controls = {{.id = V4L2_CID_GAIN, .min = 40, .max = 20}}});
+  // Which no driver takes; the point is that it is an error of the device's, and no end of the
+  // program.
+  EXPECT_THAT(startError({.controls = {.gain = 0.5}}).message(), HasSubstr("cannot set its gain"));
+}
+
 TEST_F(V4l2Controls, OfNoNumberAreTheLeast) {
   start({.exposure = Duration(0), .gain = std::numeric_limits<double>::quiet_NaN()});
   EXPECT_EQ(value(V4L2_CID_EXPOSURE_ABSOLUTE), 3);
@@ -104,6 +111,58 @@ TEST_F(V4l2Controls, FallBackToTheAnalogueGain) {
   plug({.controls = {{.id = V4L2_CID_ANALOGUE_GAIN, .max = 8}}});
   startOrFail({.controls = {.gain = 0.25}});
   EXPECT_EQ(value(V4L2_CID_ANALOGUE_GAIN), 2);
+}
+
+/// The mains' frequencies of a UVC webcam.
+support::FakeControl powerLine(std::set<std::uint32_t> items) {
+  return {.id = V4L2_CID_POWER_LINE_FREQUENCY,
+          .max = static_cast<int>(*items.rbegin()),
+          .value = V4L2_CID_POWER_LINE_FREQUENCY_60HZ,
+          .menu = std::move(items)};
+}
+
+TEST_F(V4l2Controls, SetTheFrequencyOfTheMains) {
+  plug({.controls = {powerLine({0, 1, 2})}});
+  startOrFail();
+  EXPECT_EQ(value(V4L2_CID_POWER_LINE_FREQUENCY), V4L2_CID_POWER_LINE_FREQUENCY_60HZ) << "unset";
+  destroyCamera();
+  options.powerLine = PowerLine::k50Hz;
+  EXPECT_EQ(startOrFail().warning, "");
+  EXPECT_EQ(value(V4L2_CID_POWER_LINE_FREQUENCY), V4L2_CID_POWER_LINE_FREQUENCY_50HZ);
+}
+
+TEST_F(V4l2Controls, RefuseAFrequencyThatTheDeviceDoesNotOffer) {
+  plug({.controls = {powerLine({0, 1, 2})}});
+  options.powerLine = PowerLine::kAuto;
+  EXPECT_EQ(refusal({}),
+            "/dev/video0: has no power_line \"auto\" (Fake camera); set camera.v4l2.power_line to "
+            "one of off, 50, 60");
+  destroyCamera();
+  plug();
+  EXPECT_THAT(refusal({}),
+              HasSubstr("remove camera.v4l2.power_line; the device has no such control"));
+}
+
+TEST_F(V4l2Controls, ThatReadBackOtherwiseAreTold) {
+  auto controls = webcam();
+  controls[1].kept = 250;  // the exposure
+  controls[2].flags = V4L2_CTRL_FLAG_WRITE_ONLY;
+  controls.push_back(powerLine({0, 1, 2}));
+  controls.back().kept = V4L2_CID_POWER_LINE_FREQUENCY_60HZ;
+  plug({.controls = std::move(controls)});
+  options.powerLine = PowerLine::k50Hz;
+  EXPECT_EQ(startOrFail({.controls = {.exposure = Duration(10ms), .gain = 0.5}}).warning,
+            "keeps its power_line at 2 where 1 was set (0 to 2); keeps its exposure at 250 where "
+            "100 was set (3 to 2047)");
+}
+
+TEST_F(V4l2Controls, OfWhichTheAutomaticStaysOnAreTold) {
+  auto controls = webcam();
+  controls[3].kept = 1;  // the automatic focus
+  plug({.controls = std::move(controls)});
+  EXPECT_EQ(startOrFail({.controls = {.focus = 0.3}}).warning,
+            "keeps its automatic focus at 1 where 0 was set (0 to 1)");
+  EXPECT_EQ(value(V4L2_CID_FOCUS_ABSOLUTE), 30) << "left as it was";
 }
 
 TEST_F(V4l2Controls, ThatTheDeviceRefusesAreAnError) {

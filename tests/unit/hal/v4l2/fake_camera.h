@@ -33,7 +33,7 @@ class FakeCamera : public testing::Test {
     return kernel_.plug(std::move(video));
   }
   Camera& camera() {
-    if (!camera_) camera_ = std::make_unique<V4l2Camera>(kNode, system(), clock_);
+    if (!camera_) camera_ = std::make_unique<V4l2Camera>(kNode, system(), clock_, options);
     return *camera_;
   }
   System system() { return {.calls = kernel_, .nodes = nodes_}; }
@@ -83,6 +83,7 @@ class FakeCamera : public testing::Test {
     EXPECT_EQ(kernel_.buffers(), 0);
   }
 
+  V4l2Options options;  ///< before first use of camera()
   SteppedClock clock_{TimePoint(100s)};
   support::FakeV4l2 kernel_{clock_};
   support::FakeNodes nodes_;

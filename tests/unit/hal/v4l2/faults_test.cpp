@@ -144,6 +144,13 @@ TEST_F(V4l2Faults, ASourceThatComesBackAsItWasIsNoChange) {
   EXPECT_EQ(frameOrFail().sequence, 1u);
 }
 
+TEST_F(V4l2Faults, EventsWithoutEndEndNothing) {
+  plug({.eventsNeverEnd = true, .frames = {{1, {.changesSourceTo = FrameSize{32, 24}}}}});
+  startOrFail();
+  frameOrFail();
+  EXPECT_EQ(answerOrFail<FormatChanged>().format.frame.size, (FrameSize{32, 24}));
+}
+
 TEST_F(V4l2Faults, ASourceThatOnlyEverChangesIsAnError) {
   support::FakeVideo& video = plug();
   startOrFail();

@@ -79,6 +79,17 @@ INSTANTIATE_TEST_SUITE_P(
 
 class V4l2Format : public FakeCamera {};
 
+TEST_F(V4l2Format, OfAnOddWidthHasRoomForItsLastColour) {
+  // The stride of brightness is an odd number, and colours come in pairs.
+  plug({.formats = {{.fourcc = V4L2_PIX_FMT_NV12, .sizes = {{35, 24}}}},
+        .rowPadding = 1,
+        .amendFormat = [](v4l2_format& format) { format.fmt.pix.bytesperline = 35; }});
+  startOrFail();
+  const CapturedFrame frame = frameOrFail();
+  EXPECT_TRUE(frame.image.isComplete());
+  EXPECT_EQ(frame.image.map().view().planes[1].strideBytes, 36u);
+}
+
 TEST_F(V4l2Format, IsWhatTheDeviceMadeOfTheRequest) {
   plug({.formats = {{.sizes = {{64, 48}}, .periods = {{1, 30}, {1, 15}}}}});
   const StreamFormat format = startOrFail({.size = FrameSize{100, 80}, .framePeriod = 66ms});

@@ -1,4 +1,6 @@
+#include "hal/cameras/v4l2/find_device.h"
 #include "hal/cameras/v4l2/v4l2_kind.h"
+#include "hal/v4l2/written_nodes.h"
 #include "tests/unit/hal/v4l2/fake_camera.h"
 
 namespace pleinair::hal::v4l2 {
@@ -44,6 +46,22 @@ TEST_F(V4l2Listing, LeavesEndsOfPipelinesToLibcamera) {
   const auto cameras = listed();
   ASSERT_EQ(cameras.size(), 1u);
   EXPECT_EQ(cameras[0].node, "/dev/video1");
+}
+
+TEST_F(V4l2Listing, LeavesOutWhatTheProgramItselfFeeds) {
+  plugAt("video50", {.card = "loop50"});
+  {
+    const WrittenNode first("/dev/video50");
+    const WrittenNode second("/dev/video50");
+    EXPECT_TRUE(listed().empty());
+    EXPECT_FALSE(findNode(system(), "platform:loop50-index0"));
+  }
+  EXPECT_EQ(listed().size(), 1u);
+}
+
+TEST_F(V4l2Listing, LeavesControlCharactersOutOfNames) {
+  plugAt("video0", {.card = "Web\x1b[2Jcam\n"});
+  EXPECT_EQ(listed().at(0).identity.description, "Web?[2Jcam?");
 }
 
 TEST_F(V4l2Listing, DescribesACamera) {

@@ -1,5 +1,6 @@
 #include "hal/cameras/v4l2/modes.h"
 
+#include "hal/cameras/v4l2/v4l2_kind.h"
 #include "hal/v4l2/formats.h"
 #include "tests/unit/hal/v4l2/fake_camera.h"
 
@@ -76,6 +77,53 @@ TEST_F(V4l2Modes, LeaveOutWhatIsNotRead) {
                            {.fourcc = V4L2_PIX_FMT_YUYV, .sizes = {kVga}}},
                           {.size = kHd})),
             "YUYV");
+}
+
+TEST_F(V4l2Modes, SayWhatDecided) {
+  EXPECT_EQ(chosen(webcam_, {.size = kHd, .framePeriod = Duration(33'333'333)}).reason,
+            "YUYV reaches 10 of 30 frames/s at that size");
+  EXPECT_EQ(chosen(webcam_, {.size = kHd, .framePeriod = 100ms}).reason, "MJPG is compressed");
+  EXPECT_EQ(
+      chosen({{.fourcc = V4L2_PIX_FMT_YUYV, .sizes = {kVga}, .periods = {kFps10}}},
+             {.size = kHd, .framePeriod = 40ms})
+          .reason,
+      "nearest to 1280x720 px; no mode of that size is faster than 10 frames/s; no other format "
+      "of it is read");
+  EXPECT_EQ(chosen({{.fourcc = V4L2_PIX_FMT_YUYV, .sizes = {kVga}},
+                    {.fourcc = V4L2_PIX_FMT_NV12, .sizes = {kHd}}},
+                   {.size = kHd})
+                .reason,
+            "YUYV comes no nearer than 640x480 px");
+  EXPECT_EQ(chosen({{.fourcc = V4L2_PIX_FMT_GREY}, {.fourcc = V4L2_PIX_FMT_YUYV}}, {}).reason,
+            "GREY has no colour");
+  EXPECT_EQ(chosen({{.fourcc = V4L2_PIX_FMT_YUYV}, {.fourcc = V4L2_PIX_FMT_NV12}}, {}).reason,
+            "YUYV costs more to paint");
+  EXPECT_EQ(chosen({{.fourcc = V4L2_PIX_FMT_YUYV}, {.fourcc = V4L2_PIX_FMT_GREY}},
+                   {.pixelFormat = PixelFormat::kGrey8})
+                .reason,
+            "YUYV is not the pixel format asked for");
+}
+
+TEST_F(V4l2Modes, AreToldWithTheOneThatStartTakes) {
+  plug({.formats = webcam_});
+  V4l2Backend backend(system());
+  const StreamRequest request{.size = FrameSize{1200, 700}, .framePeriod = Duration(33'333'333)};
+  const Result<OfferedModes> modes = backend.offeredModes(kNode, request);
+  ASSERT_TRUE(modes) << modes.error().message();
+  EXPECT_EQ(modes->modes.size(), 4u);
+  EXPECT_EQ(modes->chosen.mode.layout, "MJPG");
+  EXPECT_EQ(modes->chosen.mode.size, kHd);
+  EXPECT_THAT(modes->chosen.mode.periods, testing::ElementsAre(Duration(33'333'333)));
+  EXPECT_EQ(modes->chosen.reason,
+            "nearest to 1200x700 px; YUYV reaches 10 of 30 frames/s at that size");
+  EXPECT_EQ(startOrFail(request).frame.size, kHd);
+  destroyCamera();
+  expectNothingLeft();
+}
+
+TEST_F(V4l2Modes, OfADeviceThatIsNotThereAreAnError) {
+  V4l2Backend backend(system());
+  EXPECT_FALSE(backend.offeredModes(kNode, {}));
 }
 
 TEST_F(V4l2Modes, OfADeviceWithNoneThatIsReadAreRefusedByName) {

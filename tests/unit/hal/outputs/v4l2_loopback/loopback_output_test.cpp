@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "hal/outputs/registry.h"
+#include "hal/v4l2/written_nodes.h"
 #include "tests/unit/hal/outputs/v4l2_loopback/loopback_fixture.h"
 
 namespace pleinair::hal {
@@ -32,6 +33,20 @@ TEST_F(LoopbackOutput, WritesAWholeFrameAWrite) {
     const auto row = image.view().row(0, 1);
     EXPECT_TRUE(std::equal(row.begin(), row.end(), begin)) << "the second row after the stride";
   }
+}
+
+TEST_F(LoopbackOutput, IsNoCameraOfTheSameProgram) {
+  addNode("video0");
+  {
+    const auto output = open("loopback");
+    EXPECT_FALSE(v4l2::isWritten(pathOf("video0")));
+    startOrFail(*output);
+    EXPECT_TRUE(v4l2::isWritten(pathOf("video0")));
+    ASSERT_TRUE(output->finish());
+    EXPECT_FALSE(v4l2::isWritten(pathOf("video0")));
+    startOrFail(*output);
+  }
+  EXPECT_FALSE(v4l2::isWritten(pathOf("video0")));
 }
 
 TEST_F(LoopbackOutput, NeverWaitsForReaders) {

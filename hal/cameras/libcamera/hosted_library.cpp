@@ -1,0 +1,330 @@
+#include "hal/cameras/libcamera/hosted_library.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <sys/wait.h>
+
+#include "hal/cameras/libcamera/host_channel.h"
+#include "hal/cameras/libcamera/host_message.h"
+#include "hal/cameras/libcamera/mapped_buffer.h"
+
+namespace pleinair::hal::libcamera {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A listing holds up nobody but those who look for a camera; a first start reads much from disks.
+constexpr Duration kListLimit = 20s;
+/// Below the limit of driver threads (hal/supervisor/worker_camera.h), as are the next two.
+constexpr Duration kCallLimit = 8s;
+constexpr Duration kStopLimit = 500ms;
+/// What a host has to end by itself.
+constexpr Duration kEndLimit = 200ms;
+
+/// A child process, which is ended with this.
+class HostProcess {
+ public:
+  explicit HostProcess(pid_t process) : process_(process) {}
+  HostProcess(const HostProcess&) = delete;
+  HostProcess& operator=(const HostProcess&) = delete;
+  ~HostProcess() { end(Duration::zero()); }
+
+  /// Waits for its end, and then kills it. A process that hangs in a driver outlives that: it is
+  /// looked for whenever another one ends.
+  void end(Duration limit) {
+    if (process_ < 0 || waitFor(limit)) return;
+    ::kill(process_, SIGKILL);
+    if (waitFor(kEndLimit)) return;
+    static std::mutex mutex;
+    static std::vector<pid_t> hanging;
+    const std::scoped_lock lock(mutex);
+    std::erase_if(hanging, [](pid_t each) { return ::waitpid(each, nullptr, WNOHANG) != 0; });
+    hanging.push_back(process_);
+    process_ = -1;
+  }
+
+  /// How it has ended: "was ended by signal 6".
+  std::string endText() {
+    if (process_ >= 0) waitFor(kEndLimit);
+    if (WIFSIGNALED(status_)) return "was ended by signal " + std::to_string(WTERMSIG(status_));
+    return "has ended";
+  }
+
+ private:
+  bool waitFor(Duration limit) {
+    const auto until = std::chrono::steady_clock::now() + limit;
+    for (;;) {
+      const pid_t ended = ::waitpid(process_, &status_, WNOHANG);
+      if (ended == process_ || (ended < 0 && errno != EINTR)) {
+        process_ = -1;
+        return true;
+      }
+      if (std::chrono::steady_clock::now() >= until) return false;
+      std::this_thread::sleep_for(2ms);
+    }
+  }
+
+  pid_t process_;
+  int status_ = 0;
+};
+
+/// A host and the channels to it.
+class Host {
+ public:
+  explicit Host(StartedHost started)
+      : process_(started.process),
+        calls_(std::move(started.calls)),
+        frames_(std::move(started.frames)) {}
+  ~Host() {
+    calls_.close();
+    frames_.close();
+    process_.end(isWell_ ? kEndLimit : Duration::zero());
+  }
+  Host(const Host&) = delete;
+  Host& operator=(const Host&) = delete;
+
+  HostChannel& frames() { return frames_; }
+  std::string lossText() { return "is lost: the process of libcamera " + process_.endText(); }
+  /// It is killed at its end, without a chance to close the camera.
+  void giveUp() { isWell_ = false; }
+
+  /// Sends a call with its arguments and waits for the answer.
+  template <class T, class... Arguments>
+  Result<T> call(Call what, Duration limit, const Arguments&... arguments) {
+    MessageWriter message;
+    message.put(what);
+    (message.put(arguments), ...);
+    if (!isWell_ || !calls_.send(message.bytes())) return tl::unexpected(ended());
+    switch (calls_.receive(answer_, limit)) {
+      case HostChannel::Reception::kMessage:
+        return answerOf<T>(what);
+      case HostChannel::Reception::kClosed:
+        return tl::unexpected(ended());
+      case HostChannel::Reception::kTimeout:
+        break;
+    }
+    giveUp();
+    return tl::unexpected(
+        Error{.kind = ErrorKind::kTimeout,
+              .problem = "libcamera gave no answer for " + durationText(limit),
+              .remedy = "unplug the camera, or start the computer anew if it is built in"});
+  }
+  /// The descriptors of the last answer.
+  std::vector<FileDescriptor>& descriptors() { return answer_.descriptors; }
+
+ private:
+  template <class T>
+  Result<T> answerOf(Call what) {
+    MessageReader reader(answer_.bytes);
+    Call call{};
+    bool isGood = false;
+    reader.take(call, kLastCall);
+    reader.take(isGood);
+    if (reader.isValid() && call == what && !isGood) {
+      Error error;
+      reader.take(error);
+      if (reader.isValid()) return tl::unexpected(std::move(error));
+    } else if (reader.isValid() && call == what) {
+      if constexpr (std::is_void_v<T>) {
+        return {};
+      } else {
+        T value{};
+        reader.take(value);
+        if (reader.isValid()) return value;
+      }
+    }
+    giveUp();
+    return tl::unexpected(
+        Error{.kind = ErrorKind::kInternal, .problem = "the process of libcamera makes no sense"});
+  }
+
+  Error ended() {
+    giveUp();
+    return {.kind = ErrorKind::kIo,
+            .problem = "the process of libcamera " + process_.endText(),
+            .remedy = "its last lines in the log say why"};
+  }
+
+  HostProcess process_;
+  HostChannel calls_, frames_;
+  HostMessage answer_;
+  bool isWell_ = true;
+};
+
+class HostedStream final : public Stream {
+ public:
+  HostedStream(std::shared_ptr<Host> host, std::uint32_t number,
+               std::vector<std::shared_ptr<MappedBuffer>> buffers)
+      : host_(std::move(host)), number_(number), buffers_(std::move(buffers)) {}
+  ~HostedStream() override {
+    // A stream that is lost is not stopped: libcamera 0.0.3 ends its process over it.
+    if (isLost_) {
+      host_->giveUp();
+    } else {
+      static_cast<void>(host_->call<void>(Call::kStop, kStopLimit));
+    }
+  }
+
+  std::size_t bufferCount() const override { return buffers_.size(); }
+  std::shared_ptr<const BufferMemory> memory(std::size_t index) const override {
+    return {buffers_[index], &buffers_[index]->memory};
+  }
+
+  std::optional<Completed> pop(Duration timeout) override {
+    if (isLost_) return std::nullopt;
+    HostMessage message;
+    switch (host_->frames().receive(message, std::max(timeout, Duration::zero()))) {
+      case HostChannel::Reception::kMessage:
+        return take(message);
+      case HostChannel::Reception::kClosed:
+        isLost_ = true;
+        lossText_ = host_->lossText();
+        return std::nullopt;
+      case HostChannel::Reception::kTimeout:
+        break;
+    }
+    return std::nullopt;
+  }
+
+  int push(std::size_t index) override {
+    if (pushFailure_ < 0) return pushFailure_;
+    MessageWriter message;
+    message.put(FrameNote::kPush);
+    message.put(number_);
+    message.put(static_cast<std::uint64_t>(index));
+    // Where the host has ended, pop() tells.
+    host_->frames().send(message.bytes());
+    return 0;
+  }
+  bool isLost() const override { return isLost_; }
+  std::string lossText() const override {
+    return lossText_.empty() ? Stream::lossText() : lossText_;
+  }
+
+ private:
+  std::optional<Completed> take(const HostMessage& message) {
+    MessageReader reader(message.bytes);
+    FrameNote note{};
+    std::uint32_t number = 0;
+    reader.take(note, kLastNote);
+    reader.take(number);
+    if (!reader.isValid() || number != number_) return std::nullopt;
+    Completed completed;
+    int failure = 0;
+    switch (note) {
+      case FrameNote::kCompleted:
+        reader.take(completed);
+        if (!reader.isValid() || completed.index >= buffers_.size()) return std::nullopt;
+        return completed;
+      case FrameNote::kPushFailed:
+        reader.take(failure);
+        pushFailure_ = std::min(failure, -1);
+        break;
+      case FrameNote::kLost:
+        isLost_ = true;
+        break;
+      case FrameNote::kPush:
+        break;
+    }
+    return std::nullopt;
+  }
+
+  std::shared_ptr<Host> host_;
+  std::uint32_t number_;
+  std::vector<std::shared_ptr<MappedBuffer>> buffers_;
+  int pushFailure_ = 0;
+  bool isLost_ = false;
+  std::string lossText_;
+};
+
+class HostedDevice final : public Device {
+ public:
+  explicit HostedDevice(std::shared_ptr<Host> host) : host_(std::move(host)) {}
+
+  std::string description() const override { return ask<std::string>(Call::kDescription); }
+  std::vector<OfferedFormat> formats() override {
+    return ask<std::vector<OfferedFormat>>(Call::kFormats);
+  }
+  Result<StreamAnswer> configure(const StreamWish& wish) override {
+    return host_->call<StreamAnswer>(Call::kConfigure, kCallLimit, wish);
+  }
+  std::optional<ControlRange> range(Control control) override {
+    return ask<std::optional<ControlRange>>(Call::kRange, control);
+  }
+  bool hasAutomatic(Control control) override { return ask<bool>(Call::kHasAutomatic, control); }
+  std::optional<std::array<Duration, 2>> periods() override {
+    const auto ends = ask<std::optional<std::vector<Duration>>>(Call::kPeriods);
+    if (!ends || ends->size() != 2) return std::nullopt;
+    return std::array{(*ends)[0], (*ends)[1]};
+  }
+
+  Result<std::unique_ptr<Stream>> start(const StartSettings& settings) override {
+    const std::uint32_t number = ++streams_;
+    const auto shared = host_->call<SharedBuffers>(Call::kStart, kCallLimit, settings, number);
+    if (!shared) return tl::unexpected(shared.error());
+    std::vector<std::shared_ptr<MappedBuffer>> buffers;
+    for (const std::vector<SharedPlane>& each : *shared) {
+      auto mapped = map(each);
+      if (!mapped) return tl::unexpected(mapped.error());
+      buffers.push_back(*std::move(mapped));
+    }
+    host_->descriptors().clear();
+    if (buffers.empty()) {
+      return tl::unexpected(Error{.kind = ErrorKind::kIo, .problem = "has no buffers"});
+    }
+    return std::make_unique<HostedStream>(host_, number, std::move(buffers));
+  }
+
+ private:
+  Result<std::shared_ptr<MappedBuffer>> map(const std::vector<SharedPlane>& planes) {
+    const std::vector<FileDescriptor>& descriptors = host_->descriptors();
+    std::vector<BufferPlane> own;
+    for (const SharedPlane& plane : planes) {
+      const int fd =
+          plane.descriptor < descriptors.size() ? descriptors[plane.descriptor].get() : -1;
+      own.push_back({.fd = fd, .offset = plane.offset, .length = plane.length});
+    }
+    return MappedBuffer::map(own);
+  }
+
+  /// Nothing where the host has ended, which the next call that can fail reports.
+  template <class T, class... Arguments>
+  T ask(Call what, const Arguments&... arguments) const {
+    return host_->call<T>(what, kCallLimit, arguments...).value_or(T{});
+  }
+
+  std::shared_ptr<Host> host_;
+  std::uint32_t streams_ = 0;
+};
+
+}  // namespace
+
+Result<std::vector<FoundCamera>> HostedLibrary::list() {
+  Result<StartedHost> started = start_();
+  if (!started) return tl::unexpected(started.error());
+  Host host(*std::move(started));
+  auto found = host.call<std::vector<FoundCamera>>(Call::kList, kListLimit);
+  if (!found && found.error().subject.empty()) found.error().subject = "libcamera";
+  return found;
+}
+
+Result<std::unique_ptr<Device>> HostedLibrary::open(const std::string& id) {
+  Result<StartedHost> started = start_();
+  if (!started) return tl::unexpected(started.error());
+  auto host = std::make_shared<Host>(*std::move(started));
+  const Result<void> opened = host->call<void>(Call::kOpen, kCallLimit, id);
+  if (!opened) return tl::unexpected(opened.error());
+  return std::make_unique<HostedDevice>(std::move(host));
+}
+
+}  // namespace pleinair::hal::libcamera

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+
+#include <sys/types.h>
+
+#include "hal/cameras/libcamera/library.h"
+#include "hal/error.h"
+#include "hal/file_descriptor.h"
+
+namespace pleinair::hal::libcamera {
+
+/// A process that serves a library (host_server.h), and the program's ends of the channels to it.
+struct StartedHost {
+  FileDescriptor calls, frames;
+  pid_t process = -1;  ///< a child of this process; −1: served in this one, by a test
+};
+/// Starts a host. Any thread. Errors: kIo.
+using HostStarter = std::function<Result<StartedHost>()>;
+
+/// libcamera in another process, one for each listing and for each open camera, because libcamera
+/// ends its process on what it does not expect: the end of a device in mid-stream, or its return
+/// (docs/decisions/0053-libcamera-process.md). Buffers are dma-bufs that both processes have.
+///
+/// A host that ends is an error of the call in progress (kIo), or the loss of the stream. One that
+/// does not answer within 8 s (20 s for a listing) is killed: kTimeout. The end of a stream takes
+/// 0.7 s at most. Any thread; a device and its stream on one.
+class HostedLibrary final : public Library {
+ public:
+  explicit HostedLibrary(HostStarter start) : start_(std::move(start)) {}
+
+  Result<std::vector<FoundCamera>> list() override;
+  Result<std::unique_ptr<Device>> open(const std::string& id) override;
+
+ private:
+  HostStarter start_;
+};
+
+}  // namespace pleinair::hal::libcamera
