@@ -334,7 +334,8 @@ std::vector<Metric> outputMetrics() {
          return suspension ? one(suspension->reason) : one({});
        }},
       {kOutput, "scan_out", "", kState, kNoUnit,
-       "How images reach a display's memory: read back and copied, or drawn there by the GPU.",
+       "How images reach a display's memory, or a window: read back and copied, or drawn there by "
+       "the GPU.",
        [](Moment m) { return scanOutPath(m.output->scanOut); }},
       {kOutput, "scan_out_reason", "", kText, kNoUnit,
        "Why they are copied, or in which layout they are drawn.",
