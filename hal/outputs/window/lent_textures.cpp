@@ -122,6 +122,7 @@ Result<GpuSurface> LentTextures::make(SDL_Renderer* renderer, FrameSize size, Su
     return tl::unexpected(refusal("shares no texture (EGL error " + std::to_string(error) + ")"));
   }
   display_ = display;
+  hasFences_ = hasExtension(display, "EGL_KHR_fence_sync");
   lent_.push_back(std::move(lent));
   GpuSurface surface{.surface = {}, .bufferSize = size};
   surface.surface.id = id;
@@ -174,8 +175,8 @@ void LentTextures::drawn() {
   for (Lent& each : lent_) {
     if (each.state != State::kReplaced) continue;
     each.state = State::kLeaving;
-    const auto createSync = eglFunction<PFNEGLCREATESYNCKHRPROC>("eglCreateSyncKHR");
-    if (createSync != nullptr && hasExtension(display_, "EGL_KHR_fence_sync")) {
+    if (hasFences_) {
+      const auto createSync = eglFunction<PFNEGLCREATESYNCKHRPROC>("eglCreateSyncKHR");
       each.done = createSync(display_, EGL_SYNC_FENCE_KHR, nullptr);
     }
     if (each.done == EGL_NO_SYNC_KHR) glFinish();

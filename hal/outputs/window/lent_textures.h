@@ -64,6 +64,7 @@ class LentTextures {
   void forgetSync(Lent& lent) const;
 
   void* display_ = nullptr;
+  bool hasFences_ = false;
   FrameSize size_;
   std::vector<Lent> lent_;             ///< by their ids
   std::shared_ptr<SDL_Texture> seen_;  ///< may be of an earlier loan
