@@ -62,6 +62,36 @@ struct OutputIdentity {
 class MemoryOutput;
 class SurfaceOutput;
 
+/// Surfaces that a GPU draws into, of an output that has such beside its other ways to take
+/// pictures. All calls come from the output's thread.
+class GpuSurfaceLender {
+ public:
+  virtual ~GpuSurfaceLender() = default;
+
+  /// The EGLDisplay whose contexts alone share the surfaces (GpuSurface::texture); null: they have
+  /// descriptors, for any GPU. Error: kUnsupported (why there are no surfaces).
+  virtual Result<void*> eglDisplay() { return nullptr; }
+
+  /// Makes `count` surfaces that a GPU draws into; where they have descriptors, in layouts that it
+  /// takes (modifiers of drm_fourcc.h, for XRGB8888). Those of an earlier call are lent no more,
+  /// and what was drawn into them cannot be shown. Their descriptors stay open until the next call,
+  /// a reconfiguration, an error or destruction. May take some 100 ms. Errors: kUnsupported (why
+  /// there are none), kNoSpace (no memory), kDeviceLost.
+  virtual Result<std::vector<GpuSurface>> lendToGpu(std::span<const std::uint64_t> modifiers,
+                                                    std::size_t count) = 0;
+  /// One of them that is free; nothing where all are in use. Errors: kUnsupported (the display has
+  /// refused one after all; there are none any more), kDeviceLost.
+  virtual Result<std::optional<SurfaceId>> acquireForGpu() = 0;
+  /// A copy of what the buffer of one of them holds, RGBA8 of the picture's size, or of all the
+  /// buffer. Waits for the GPU; slow. Errors: kUnsupported, kDeviceLost.
+  virtual Result<Image> copyOfGpuSurface(SurfaceId surface, bool isWholeBuffer) = 0;
+
+ protected:
+  GpuSurfaceLender() = default;
+  GpuSurfaceLender(const GpuSurfaceLender&) = default;
+  GpuSurfaceLender& operator=(const GpuSurfaceLender&) = default;
+};
+
 /// Where painted pictures go: a file, a device, a display. An output takes pictures in memory
 /// (MemoryOutput) or lends surfaces that are filled and handed back (SurfaceOutput). One contract
 /// for all of them, held by tests/conformance/{output,surface}_conformance.h.
@@ -90,6 +120,9 @@ class Output {
 
   virtual MemoryOutput* memory() { return nullptr; }
   virtual SurfaceOutput* surfaces() { return nullptr; }
+
+  /// Beside that, surfaces that a GPU draws into; null: it has none. Lives as long as this object.
+  virtual GpuSurfaceLender* lender() { return nullptr; }
 };
 
 /// An output that takes pictures in memory: a movie, frames, a loopback, a window.
@@ -106,6 +139,16 @@ class MemoryOutput : public Output {
   /// takes, but never for readers: a picture that they are too slow for is dropped and counted
   /// (skippedPictures()). Errors: kNoSpace, kIo, kDeviceLost.
   virtual Result<void> write(const ImageView& picture, Duration time) = 0;
+
+  /// Takes a surface that was acquired for a GPU, and drawn, in place of a picture in memory, on
+  /// the same terms. Precondition: lender() has lent it. Errors: those of write(); kUnsupported,
+  /// where there is no lender().
+  virtual Result<void> show(SurfaceId /*surface*/, Duration /*time*/) {
+    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
+                                .subject = identity().id,
+                                .problem = "takes pictures in memory only",
+                                .remedy = {}});
+  }
 
   /// Takes another stream from here on, and answers its format: of kinds that show waiting pictures
   /// (OutputTraits::showsWaiting). Errors: those of start(); kUnsupported, for other kinds.
@@ -154,9 +197,10 @@ struct Suspension {
 ///
 /// Surfaces, their ids and file descriptors belong to the output, which keeps them open from
 /// start() until it is reconfigured or destroyed.
-class SurfaceOutput : public Output {
+class SurfaceOutput : public Output, public GpuSurfaceLender {
  public:
   SurfaceOutput* surfaces() final { return this; }
+  GpuSurfaceLender* lender() final { return this; }
 
   /// Takes another stream than the one that start() was asked for, such as a camera's that has come
   /// later, and answers anew as start() does. What is shown stays, unless the stream needs another
@@ -186,31 +230,16 @@ class SurfaceOutput : public Output {
   /// When takeEvents() will have the next one, as far as can be told; none where nothing is queued.
   virtual std::optional<TimePoint> nextEvent() const = 0;
 
-  // Surfaces that a GPU draws into, for outputs that have such beside the others. They are lent,
-  // submitted and released alike, and flipped among them.
+  // Surfaces that a GPU draws into are submitted and released as the others are, and flipped among
+  // them. By default there are none.
 
-  /// Makes `count` surfaces that a GPU draws into, in layouts that it takes (modifiers of
-  /// drm_fourcc.h, for XRGB8888). Those of an earlier call are lent no more, and what was drawn
-  /// into them cannot be submitted. Their descriptors stay open until the next call, reconfigure(),
-  /// an error or destruction. May take some 100 ms. Errors: kUnsupported (why there are none),
-  /// kNoSpace (no memory), kDeviceLost.
-  virtual Result<std::vector<GpuSurface>> lendToGpu(std::span<const std::uint64_t> /*modifiers*/,
-                                                    std::size_t /*count*/) {
-    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
-                                .subject = identity().id,
-                                .problem = "has no buffers for a GPU",
-                                .remedy = {}});
+  Result<std::vector<GpuSurface>> lendToGpu(std::span<const std::uint64_t> /*modifiers*/,
+                                            std::size_t /*count*/) override {
+    return tl::unexpected(hasNoneForGpu());
   }
-  /// One of them that is free; nothing where all are in use. Errors: kUnsupported (the display has
-  /// refused one after all; there are none any more), kDeviceLost.
-  virtual Result<std::optional<SurfaceId>> acquireForGpu() { return std::nullopt; }
-  /// A copy of what the buffer of one of them holds, RGBA8 of the picture's size, or of all the
-  /// buffer. Waits for the GPU; slow. Errors: kUnsupported, kDeviceLost.
-  virtual Result<Image> copyOfGpuSurface(SurfaceId /*surface*/, bool /*isWholeBuffer*/) {
-    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
-                                .subject = identity().id,
-                                .problem = "has no buffers for a GPU",
-                                .remedy = {}});
+  Result<std::optional<SurfaceId>> acquireForGpu() override { return std::nullopt; }
+  Result<Image> copyOfGpuSurface(SurfaceId /*surface*/, bool /*isWholeBuffer*/) override {
+    return tl::unexpected(hasNoneForGpu());
   }
 
   /// Set while it shows nothing though it works: acquire() lends nothing, and queued surfaces have
@@ -223,6 +252,14 @@ class SurfaceOutput : public Output {
 
   /// Somebody is there: a key was pressed, or something moved. A display that is off goes on.
   virtual void noteActivity() {}
+
+ private:
+  Error hasNoneForGpu() const {
+    return {.kind = ErrorKind::kUnsupported,
+            .subject = identity().id,
+            .problem = "has no buffers for a GPU",
+            .remedy = {}};
+  }
 };
 
 }  // namespace pleinair::hal

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -41,12 +42,21 @@ struct Surface {
   std::array<SurfacePlane, 4> planes;
 };
 
-/// A surface that a GPU draws into. Its planes are the whole buffer's.
+/// A texture of an output's as the contexts of one EGL display share it, whichever thread they
+/// belong to (EGL_KHR_gl_texture_2D_image).
+struct SharedTexture {
+  void* display = nullptr;      ///< EGLDisplay
+  std::shared_ptr<void> image;  ///< EGLImage, RGBA8; keeps the memory. Null: there is none
+};
+
+/// A surface that a GPU draws into: a texture, or else memory with descriptors. Its planes are the
+/// whole buffer's.
 struct GpuSurface {
   Surface surface;
   FrameSize bufferSize;
   int x = 0;  ///< of the picture in the buffer, which is black elsewhere
   int y = 0;
+  SharedTexture texture = {};
 };
 
 /// A GpuSurface that a painter has, of one of several loans of an output.

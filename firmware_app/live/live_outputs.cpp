@@ -140,12 +140,23 @@ void LiveOutputs::startOutput(std::size_t index) {
         .refresh = std::nullopt};
   }
   const hal::OutputFormat format = orThrow(std::move(started));
-  if (auto* window = dynamic_cast<hal::Window*>(opened.get())) window_ = window;
+  auto* const window = dynamic_cast<hal::Window*>(opened.get());
   runtime::OutputStage& output = pipeline_.addOutput(std::move(opened), format, std::move(options));
+  if (window != nullptr) {
+    window_ = window;
+    windowStage_ = &output;
+    windowDisplay_ =
+        window->lender() == nullptr ? nullptr : window->lender()->eglDisplay().value_or(nullptr);
+  }
   if (kind.traits.isOnMainThread) stepped_.push_back(&output);
   if (isOnConsole(target)) displays_.push_back(&output);
-  if (isScreen(target)) screens_.add(output, isOnConsole(target));
+  if (isScreen(target)) screens_.add(output, isOnConsole(target), kind.traits.isOnMainThread);
   isStarted_[index] = true;
+}
+
+void* LiveOutputs::windowDisplay() const {
+  const bool isUsable = windowStage_ != nullptr && !windowStage_->status().isFailed;
+  return isUsable ? windowDisplay_ : nullptr;
 }
 
 bool LiveOutputs::isUpdateDue() const {
@@ -197,8 +208,8 @@ void LiveOutputs::reportScanOut() {
     told = now;
     reporter_.interrupt();
     if (now.path == Path::kDirect) {
-      spdlog::info("{}: the GPU draws straight into the display's memory, {} ({:.0f} ms)",
-                   each->name(), now.reason, hal::toMilliseconds(now.took));
+      spdlog::info("{}: the GPU draws straight into it, {} ({:.0f} ms)", each->name(), now.reason,
+                   hal::toMilliseconds(now.took));
     } else {
       spdlog::info("{}: pictures are copied: {}", each->name(), now.reason);
     }

@@ -61,6 +61,9 @@ class LiveOutputs {
   const std::vector<runtime::OutputStage*>& stepped() const { return stepped_; }
   /// Null where there is none.
   hal::Window* window() const { return window_; }
+  /// The EGLDisplay of the window, for a painter that shares textures with it; null: there is none
+  /// any more, or it shares none. Any thread, after start().
+  void* windowDisplay() const;
   /// The size of paintings.
   hal::FrameSize pictureSize() const;
   /// Whether each output has got its frames or has failed for good.
@@ -88,6 +91,8 @@ class LiveOutputs {
   std::vector<runtime::OutputStage*> displays_;
   std::map<std::string, runtime::ScanOut> scanOut_;  ///< as reported, by the outputs' names
   hal::Window* window_ = nullptr;
+  const runtime::OutputStage* windowStage_ = nullptr;  ///< of window_
+  void* windowDisplay_ = nullptr;                      ///< EGLDisplay
   std::atomic<bool> haveDisplaysChanged_ = false;
   hal::TimePoint updated_;
 };

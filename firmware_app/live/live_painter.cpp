@@ -92,12 +92,17 @@ hal::Answer LivePainter::poll(std::size_t output, OutputFrame& frame) {
 
 runtime::DrawableLayouts LivePainter::drawable() {
   gpu::ImportSupport support = painter_.importSupport();
-  return {.modifiers = std::move(support.modifiers), .problem = std::move(support.problem)};
+  return {.modifiers = std::move(support.modifiers),
+          .problem = std::move(support.problem),
+          .eglDisplay = support.eglDisplay,
+          .apartBecause = std::move(support.apartBecause)};
 }
 
 hal::Result<void> LivePainter::importLoan(std::size_t output, const runtime::SurfaceLoan& loan) {
-  // A software driver that crashes would take the program with it. Those of GPUs refuse.
-  if (painter_.contextInfo().isSoftware) {
+  // A software driver that crashes would take the program with it. Those of GPUs refuse. Textures
+  // stay within one driver.
+  const bool isForeign = loan.surfaces.front().texture.image == nullptr;
+  if (painter_.contextInfo().isSoftware && isForeign) {
     if (const auto known = trials_.find(output);
         known != trials_.end() && known->second.loan != loan.number) {
       trials_.erase(known);

@@ -347,7 +347,8 @@ class LivePainting {
         .qualityLevels = job_.runtime.quality != qualityNames().front(),
         .overlay = job_.procedure != nullptr,
         .machine = job_.machine,
-        .isCancelled = [this] { return isStopping_ || isSignalled_(); }};
+        .isCancelled = [this] { return isStopping_ || isSignalled_(); },
+        .windows = outputs_.windowDisplay()};
     return std::make_unique<LivePainter>(options, formats, controls_, start, machine_);
   }
 

@@ -18,7 +18,7 @@ constexpr hal::Duration kFirstPollInterval = std::chrono::milliseconds(1);
 Screens::Screens(std::string choice, const std::filesystem::path& state, const hal::Clock& clock)
     : choice_(std::move(choice)), store_(state), clock_(clock) {}
 
-void Screens::add(runtime::OutputStage& stage, bool keepsPainting) {
+void Screens::add(runtime::OutputStage& stage, bool keepsPainting, bool isStepped) {
   if (keepsPainting && std::ranges::none_of(screens_, &Screen::keepsPainting)) {
     hal::Result<std::optional<hal::Image>> kept = store_.read();
     if (kept) {
@@ -27,7 +27,8 @@ void Screens::add(runtime::OutputStage& stage, bool keepsPainting) {
       failure_ = std::move(kept.error());
     }
   }
-  screens_.push_back({.stage = &stage, .keepsPainting = keepsPainting, .shown = {}});
+  screens_.push_back(
+      {.stage = &stage, .keepsPainting = keepsPainting, .isStepped = isStepped, .shown = {}});
 }
 
 std::vector<runtime::OutputStage*> Screens::stages() const {
@@ -77,6 +78,7 @@ void Screens::draw(Screen& screen, const Drawn& wanted) {
   screen.shown = wanted;
   hal::FrameSize upright = wanted.format.size;
   if (wanted.quarterTurns % 2 != 0) std::swap(upright.width, upright.height);
+  if (screen.isStepped) screen.stage->refreshLastFrame();
   const std::optional<hal::Image> frame = uprightFrameOf(*screen.stage);
   const bool hasLast = last_ && screen.keepsPainting;
   const hal::ImageView painting = frame     ? frame->view()

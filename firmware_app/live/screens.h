@@ -29,8 +29,8 @@ class Screens {
   /// show something; zero: never.
   void renewAfter(hal::Duration interval) { renewal_ = interval; }
   /// The stage outlives this, and keeps its last frame. `keepsPainting`: whether its last painting
-  /// is kept, and that of the run before is shown.
-  void add(runtime::OutputStage& stage, bool keepsPainting);
+  /// is kept, and that of the run before is shown. `isStepped`: by this thread, as its output.
+  void add(runtime::OutputStage& stage, bool keepsPainting, bool isStepped = false);
   bool isEmpty() const { return screens_.empty(); }
   std::vector<runtime::OutputStage*> stages() const;
 
@@ -58,6 +58,7 @@ class Screens {
   struct Screen {
     runtime::OutputStage* stage = nullptr;
     bool keepsPainting = false;
+    bool isStepped = false;
     std::optional<Drawn> shown;
     std::shared_ptr<const hal::Image> picture;  ///< for `shown`
     hal::TimePoint handedOver;

@@ -41,7 +41,7 @@ Painter::Painter(const PainterOptions& options) {
   const gpu::CurrentContextKeeper previous;
   PainterGl gl;
   if (options.context == PainterContext::kOwn) {
-    gl.own = std::make_unique<gpu::EglContext>();
+    gl.own = std::make_unique<gpu::EglContext>(options.windows);
     gl.info = gl.own->info();
   } else {
     gl.info = gpu::inspectCurrentContext("host");
@@ -103,7 +103,9 @@ void Painter::closeReadback(int readback) {
 
 gpu::ImportSupport Painter::importSupport() const {
   const ContextScope scope = pipeline_->enter();
-  return gpu::importSupport(pipeline_->testHook_);
+  gpu::ImportSupport support = gpu::importSupport(pipeline_->testHook_);
+  support.apartBecause = pipeline_->gl_.info.apartBecause;
+  return support;
 }
 
 hal::Result<void> Painter::importSurfaces(int readback, std::span<const hal::GpuSurface> surfaces) {

@@ -81,6 +81,9 @@ struct PainterOptions {
   /// shader cache in all: true ends it with a hal::Failure (kCancelled). Null: it cannot be
   /// cancelled.
   std::function<bool()> isCancelled = nullptr;
+  /// An EGLDisplay of a window system, which PainterContext::kOwn makes its context on where that
+  /// is no worse, to share textures with a window (gpu::EglContext); null: none.
+  void* windows = nullptr;
   /// Replaces answers of the driver, in tests.
   gpu::GpuTestHook testHook = {};
 };

@@ -201,8 +201,13 @@ class OpenContext {
   /// Makes a context current. Returns the step that failed; empty where none did.
   std::string_view open(EGLDisplay display, std::string_view platform) {
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return "no display";
-    display_ = display;
     if (node_.device == nullptr) SharedDisplays::instance().add(display);
+    return openOn(display, platform);
+  }
+
+  /// The same on a display that is initialised, and is left so.
+  std::string_view openOn(EGLDisplay display, std::string_view platform) {
+    display_ = display;
     if (!hasWord(eglQueryString(display_, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context")) {
       return "needs a surface";
     }
@@ -222,6 +227,7 @@ class OpenContext {
   }
   EGLContext context() const { return context_; }
   const ContextInfo& info() const { return info_; }
+  void explain(std::string apartBecause) { info_.apartBecause = std::move(apartBecause); }
 
  private:
   bool makeContext() {
@@ -324,6 +330,12 @@ struct EglContext::Impl {
     return isEnough;
   }
 
+  /// On the display of windows. Its software is taken where no hardware is found later.
+  bool tryWindows(EGLDisplay display) {
+    return attempt("window",
+                   [&](OpenContext& context) { return context.openOn(display, "window"); });
+  }
+
   bool trySurfaceless() {
     if (!hasWord(eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS), "EGL_MESA_platform_surfaceless")) {
       noteFailure("surfaceless", "not offered");
@@ -370,8 +382,12 @@ struct EglContext::Impl {
   }
 };
 
-EglContext::EglContext() : impl_(std::make_unique<Impl>()) {
-  const bool isHardware = impl_->trySurfaceless() || impl_->tryDevices() || impl_->tryGbm();
+EglContext::EglContext(void* windows) : impl_(std::make_unique<Impl>()) {
+  const bool isOfWindows = windows != nullptr && impl_->tryWindows(windows);
+  const std::string ofWindows =
+      impl_->chosen == nullptr ? impl_->attempts : impl_->chosen->info().renderer;
+  const bool isHardware =
+      isOfWindows || impl_->trySurfaceless() || impl_->tryDevices() || impl_->tryGbm();
   const bool isCurrent = impl_->chosen != nullptr && (isHardware || impl_->chosen->makeCurrent());
   if (!isCurrent) {
     impl_->chosen.reset();
@@ -380,6 +396,10 @@ EglContext::EglContext() : impl_(std::make_unique<Impl>()) {
                              .problem = "no OpenGL ES 3.1 context: " + impl_->attempts,
                              .remedy = contextRemedy(),
                              .domain = ErrorDomain::kEgl});
+  }
+  if (windows != nullptr && info().platform != "window") {
+    impl_->chosen->explain(
+        fmt::format("paintings are made by {}, the window by {}", info().renderer, ofWindows));
   }
   abortOnGlErrors();
 }

@@ -11,10 +11,12 @@ namespace pleinair::gpu {
 
 /// The GPU and driver of the current context.
 struct ContextInfo {
-  std::string renderer;     ///< "llvmpipe (LLVM 15.0.6, 256 bits)"
-  std::string version;      ///< "OpenGL ES 3.2 Mesa 22.3.6"
-  std::string platform;     ///< how the display was opened: "surfaceless", "device", "gbm", "host"
-  bool isSoftware = false;  ///< its timer queries are wrong (docs/gpu.md, rule 13)
+  std::string renderer;  ///< "llvmpipe (LLVM 15.0.6, 256 bits)"
+  std::string version;   ///< "OpenGL ES 3.2 Mesa 22.3.6"
+  /// How the display was opened: "surfaceless", "device", "gbm", "window", "host".
+  std::string platform;
+  std::string apartBecause;  ///< why it is not on the display that was asked for, if one was
+  bool isSoftware = false;   ///< its timer queries are wrong (docs/gpu.md, rule 13)
   bool hasTimerQuery = false;
   bool tellsOfResets = false;  ///< or else a lost GPU shows only where something fails
   int maxSidePixels = 0;       ///< of textures and of what can be drawn into
@@ -30,7 +32,10 @@ class EglContext {
   /// Tries EGL's surfaceless platform, then its devices, then GBM on the render nodes, and takes
   /// the first that is hardware, or software where none is or LIBGL_ALWAYS_SOFTWARE asks for it.
   /// Throws hal::Failure (kUnsupported) that names what each of them answered.
-  EglContext();
+  /// `windows`: an EGLDisplay of a window system, which is tried before these and so shares
+  /// textures with its windows. It is initialised, outlives this and is left to its owner. Null:
+  /// none.
+  explicit EglContext(void* windows = nullptr);
   ~EglContext();
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;

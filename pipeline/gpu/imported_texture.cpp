@@ -109,12 +109,31 @@ std::vector<EGLint> attributesOf(const hal::GpuSurface& of) {
   return attributes;
 }
 
+using SetTarget = PFNGLEGLIMAGETARGETTEXTURE2DOESPROC;
+
+SetTarget imageTarget() {
+  return eglFunction<SetTarget>("glEGLImageTargetTexture2DOES");
+}
+
+/// A texture with the memory of an image. `error`: GL's, where the driver makes none.
+TextureHandle textureOf(EGLImageKHR image, GLint filter, SetTarget setTarget, GLenum& error) {
+  TextureHandle handle = TextureHandle::make();
+  glBindTexture(GL_TEXTURE_2D, handle.get());
+  setTarget(GL_TEXTURE_2D, image);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glBindTexture(GL_TEXTURE_2D, 0);
+  error = glGetError();
+  return handle;
+}
+
 /// A texture that shares a surface's memory. `what`: "a display's memory".
 TextureHandle sharedTexture(const hal::GpuSurface& surface, GLint filter, const char* what) {
   const auto createImage = eglFunction<PFNEGLCREATEIMAGEKHRPROC>("eglCreateImageKHR");
   const auto destroyImage = eglFunction<PFNEGLDESTROYIMAGEKHRPROC>("eglDestroyImageKHR");
-  const auto setTarget =
-      eglFunction<PFNGLEGLIMAGETARGETTEXTURE2DOESPROC>("glEGLImageTargetTexture2DOES");
+  const SetTarget setTarget = imageTarget();
   if (createImage == nullptr || destroyImage == nullptr || setTarget == nullptr) {
     throw hal::Failure(refused(fmt::format("shares no memory with {}", what), 0));
   }
@@ -124,18 +143,26 @@ TextureHandle sharedTexture(const hal::GpuSurface& surface, GLint filter, const 
   if (image == EGL_NO_IMAGE_KHR) {
     throw hal::Failure(refused(fmt::format("makes no image of {}", what), eglGetError()));
   }
-  TextureHandle handle = TextureHandle::make();
-  glBindTexture(GL_TEXTURE_2D, handle.get());
-  setTarget(GL_TEXTURE_2D, image);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  glBindTexture(GL_TEXTURE_2D, 0);
+  GLenum error = GL_NO_ERROR;
+  TextureHandle handle = textureOf(image, filter, setTarget, error);
   destroyImage(display, image);  // the texture keeps the memory
-  if (const GLenum error = glGetError(); error != GL_NO_ERROR) {
+  if (error != GL_NO_ERROR) {
     throw hal::Failure(
         refused(fmt::format("makes no texture of {}", what), static_cast<int>(error)));
+  }
+  return handle;
+}
+
+/// A texture of an output's, in the current context.
+TextureHandle sharedTexture(const hal::SharedTexture& texture) {
+  const SetTarget setTarget = imageTarget();
+  if (setTarget == nullptr || texture.display != eglGetCurrentDisplay()) {
+    throw hal::Failure(refused("shares no texture with the window", 0));
+  }
+  GLenum error = GL_NO_ERROR;
+  TextureHandle handle = textureOf(texture.image.get(), GL_NEAREST, setTarget, error);
+  if (error != GL_NO_ERROR) {
+    throw hal::Failure(refused("makes no texture of the window's", static_cast<int>(error)));
   }
   return handle;
 }
@@ -147,10 +174,14 @@ constexpr const char* kCameraMemory = "the camera's memory";
 
 ImportSupport importSupport(const GpuTestHook& testHook) {
   if (testHook.importSurface) return {.modifiers = {hal::kLinearModifier}, .problem = {}};
-  if (!hasEgl("EGL_EXT_image_dma_buf_import") || !hasGl("GL_OES_EGL_image")) {
-    return {.modifiers = {}, .problem = "shares no memory with displays"};
+  const bool takesImages = hasGl("GL_OES_EGL_image");
+  ImportSupport support;
+  if (takesImages) support.eglDisplay = eglGetCurrentDisplay();
+  if (!takesImages || !hasEgl("EGL_EXT_image_dma_buf_import")) {
+    support.problem = "shares no memory with displays";
+    return support;
   }
-  ImportSupport support{.modifiers = namedModifiers(hal::kXrgb8888).ordinary, .problem = {}};
+  support.modifiers = namedModifiers(hal::kXrgb8888).ordinary;
   // Drivers that name none take rows one after the other.
   if (support.modifiers.empty()) support.modifiers.push_back(hal::kLinearModifier);
   return support;
@@ -162,6 +193,7 @@ Texture importedTexture(const hal::GpuSurface& surface, const GpuTestHook& testH
     if (name == 0) throw hal::Failure(refused("makes no image of a display's memory", 0));
     return {TextureHandle(name), surface.bufferSize};
   }
+  if (surface.texture.image) return {sharedTexture(surface.texture), surface.bufferSize};
   return {sharedTexture(surface, GL_NEAREST, kDisplayMemory), surface.bufferSize};
 }
 

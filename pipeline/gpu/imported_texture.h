@@ -17,14 +17,16 @@ namespace pleinair::gpu {
 /// another has made the memory (EGL_EXT_image_dma_buf_import, GL_OES_EGL_image).
 struct ImportSupport {
   std::vector<std::uint64_t> modifiers;
-  std::string problem;  ///< why there are none
+  std::string problem;         ///< why there are none
+  void* eglDisplay = nullptr;  ///< whose shared textures it can draw into, too; null: of none
+  std::string apartBecause;    ///< why that is not a window's (ContextInfo::apartBecause)
 };
 ImportSupport importSupport(const GpuTestHook& testHook = {});
 
 /// A surface of an output as a texture of its buffer's size, which shares the surface's memory:
-/// for drawing. The surface's descriptors may be closed afterwards. That there is no error promises
-/// little: what is drawn may not arrive, and software drivers have crashed (ImportTrial). Throws
-/// hal::Failure (kUnsupported).
+/// for drawing. A surface that is a texture keeps its memory. Otherwise, the surface's descriptors
+/// may be closed afterwards. That there is no error promises little: what is drawn may not arrive,
+/// and software drivers have crashed (ImportTrial). Throws hal::Failure (kUnsupported).
 Texture importedTexture(const hal::GpuSurface& surface, const GpuTestHook& testHook = {});
 
 /// Why the current context imports no plane of this layout for reading; empty: it may.

@@ -374,7 +374,8 @@ std::vector<Metric> outputMetrics() {
        "Share of their values that images are shown with: less than 1 on a display that is dimmed.",
        [](Moment m) { return one(m.output->brightness); }},
       {kOutput, "scan_out", "", kState, kNoUnit,
-       "How images reach a display's memory: read back and copied, or drawn there by the GPU.",
+       "How images reach a display's memory, or a window: read back and copied, or drawn there by "
+       "the GPU.",
        [](Moment m) { return scanOutPath(m.output->scanOut); }},
       {kOutput, "scan_out_reason", "", kText, kNoUnit,
        "Why they are copied, or in which layout they are drawn.",

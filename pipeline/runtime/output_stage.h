@@ -74,9 +74,9 @@ struct OutputStageOptions {
 /// once a presentation event says so; until then the frame counts as waiting.
 ///
 /// An output can show a waiting picture in place of frames, which fade in over it.
-/// Where it has surfaces that a GPU draws into, the painter draws frames straight into them
-/// (SurfaceLending); frames that fade or lie under a caption, those of a display that is dimmed,
-/// and those for which none is free, are copied.
+/// Where it has surfaces that a GPU draws into, in memory that is scanned out or as textures of a
+/// window, the painter draws frames straight into them (SurfaceLending); frames that fade or lie
+/// under a caption, those of a display that is dimmed, and those for which none is free, are copied.
 class OutputStage {
  public:
   /// `output` was started and answered `format`; or it is null, for OutputStageOptions::absence,
@@ -125,11 +125,14 @@ class OutputStage {
   bool isReconfigured() const;
   /// A copy of the last frame that was shown whole; nothing before the first one, or without
   /// OutputStageOptions::keepsLastFrame. Where the GPU drew it into the display's memory, waits for
-  /// the output thread to read it, 100 ms of real time at most. Not on the output thread.
+  /// the output thread to read it, 100 ms of real time at most; on the output thread, after
+  /// refreshLastFrame().
   std::optional<hal::Image> lastFrame() const;
 
   // Output thread.
 
+  /// Has lastFrame() know the last one without waiting.
+  void refreshLastFrame();
   /// Hands over the frames that are due. Returns when to call again; unset while none waits.
   std::optional<hal::TimePoint> step();
   /// Returns at `time`, after wake() or submit(), or after 100 ms; waits in real time.
@@ -203,6 +206,7 @@ class OutputStage {
   void handOver();
   std::optional<Due> takeDue();
   void present(const Due& due);
+  hal::Answer writeFrame(hal::MemoryOutput& output, const Due& due);
   void presentInMemory(hal::MemoryOutput& output, const Due& due);
   void presentSurface(hal::SurfaceOutput& output, const Due& due);
   hal::Answer submitSurface(hal::SurfaceOutput& output, const Due& due);
@@ -275,11 +279,12 @@ class OutputStage {
   std::optional<hal::OutputRequest> request_;     ///< for applyRequest()
   std::optional<std::size_t> last_;               ///< buffer of the last whole frame
   bool isFading_ = false;                         ///< frames are blended with a picture
-  std::optional<hal::SurfaceId> directOnScreen_;  ///< the surface with the last whole frame
-  std::uint64_t directShown_ = 0;                 ///< how many of these there were
-  std::uint64_t directCopied_ = 0;                ///< directShown_ of lastCopy_
-  std::optional<hal::Image> lastCopy_;            ///< of the last whole frame, where not in last_
-  mutable bool isLastWanted_ = false;             ///< by lastFrame()
+  /// The surface with the last whole frame, while it is seen.
+  std::optional<hal::SurfaceId> directOnScreen_;
+  std::uint64_t directShown_ = 0;       ///< how many of these there were
+  std::uint64_t directCopied_ = 0;      ///< directShown_ of lastCopy_
+  std::optional<hal::Image> lastCopy_;  ///< of the last whole frame, where not in last_
+  mutable bool isLastWanted_ = false;   ///< by lastFrame()
   mutable std::condition_variable lastCopied_;
   hal::TimePoint reopenAt_;
   hal::Duration reopenAfter_;  ///< grows until a frame is shown

@@ -38,14 +38,16 @@ std::optional<hal::LentSurface> OutputStage::takeSurface() {
 }
 
 void OutputStage::followLending() {
-  hal::SurfaceOutput* const surfaces = output_ ? output_->surfaces() : nullptr;
-  if (surfaces == nullptr || !options_.drawsDirectly) return;
+  hal::GpuSurfaceLender* const lender = output_ ? output_->lender() : nullptr;
+  if (lender == nullptr || !options_.drawsDirectly) return;
   {
     const std::scoped_lock lock(mutex_);
     if (status_.isFailed || status_.suspension || request_) return;
   }
-  hal::Result<void> stepped =
-      lending_.step(*surfaces, surfacesFor(options_.latency, options_.request.framePeriod));
+  const std::size_t count = surfacesFor(options_.latency, options_.request.framePeriod);
+  // A window's thread answers people, too.
+  const std::size_t comparisons = output_->surfaces() != nullptr ? count : 1;
+  hal::Result<void> stepped = lending_.step(*lender, options_.name, count, comparisons);
   if (stepped) return;
   const std::scoped_lock lock(mutex_);
   fail(std::move(stepped.error()));
@@ -75,10 +77,10 @@ void OutputStage::copyLastFrame() {
     shown = directOnScreen_;
     count = directShown_;
   }
-  hal::SurfaceOutput* const surfaces = output_ ? output_->surfaces() : nullptr;
+  hal::GpuSurfaceLender* const lender = output_ ? output_->lender() : nullptr;
   std::optional<hal::Image> copy;
-  if (shown && surfaces != nullptr) {
-    if (auto seen = surfaces->copyOfGpuSurface(*shown, false)) copy = *std::move(seen);
+  if (shown && lender != nullptr) {
+    if (auto seen = lender->copyOfGpuSurface(*shown, false)) copy = *std::move(seen);
   }
   const std::scoped_lock lock(mutex_);
   if (copy) {
@@ -89,8 +91,7 @@ void OutputStage::copyLastFrame() {
   lastCopied_.notify_all();
 }
 
-/// For lastFrame(), which nobody would answer after the end.
-void OutputStage::keepLastFrame() {
+void OutputStage::refreshLastFrame() {
   {
     const std::scoped_lock lock(mutex_);
     const bool isCopied = !directOnScreen_ || directCopied_ == directShown_;
@@ -98,6 +99,11 @@ void OutputStage::keepLastFrame() {
     isLastWanted_ = true;
   }
   copyLastFrame();
+}
+
+/// For lastFrame(), which nobody would answer after the end.
+void OutputStage::keepLastFrame() {
+  refreshLastFrame();
   const std::scoped_lock lock(mutex_);
   directOnScreen_.reset();
 }

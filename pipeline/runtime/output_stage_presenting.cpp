@@ -48,20 +48,42 @@ void OutputStage::countShown(const WaitingFrame& frame, hal::TimePoint time) {
   latency_.add(time - frame.captured, time);
 }
 
+/// Hands over the picture, or the surface that it was drawn into. False if that is lent no more.
+hal::Answer OutputStage::writeFrame(hal::MemoryOutput& output, const Due& due) {
+  OutputFrame& frame = *buffers_.at(due.frame.buffer);
+  const hal::Duration time = timeOf(due.frame);
+  const auto drawn = std::exchange(frame.surface, std::nullopt);
+  isDirect_ = drawn.has_value();
+  if (isDirect_ && !lending_.isCurrent(*drawn)) return false;
+  hal::Result<void> written =
+      isDirect_ ? output.show(drawn->id, time) : output.write(frame.image.view(), time);
+  if (!written) return tl::unexpected(std::move(written.error()));
+  const std::scoped_lock lock(mutex_);
+  directOnScreen_.reset();
+  if (!isDirect_) return true;
+  lending_.countDirect();
+  directOnScreen_ = drawn->id;
+  ++directShown_;
+  return true;
+}
+
 void OutputStage::presentInMemory(hal::MemoryOutput& output, const Due& due) {
   const hal::TimePoint began = clock_.now();
-  const hal::ImageView view = buffers_.at(due.frame.buffer)->image.view();
   const std::uint64_t skippedBefore = output.skippedPictures();
-  hal::Result<void> written = output.write(view, timeOf(due.frame));
+  const hal::Answer written = writeFrame(output, due);
   const bool isSkipped = output.skippedPictures() > skippedBefore;
   const hal::TimePoint ended = clock_.now();
   const std::scoped_lock lock(mutex_);
   isWriting_ = false;
   queue_.presented(ended);
   writing_.add(ended - began, ended);
-  if (!written) {
+  if (written.hasError()) {
     end(due.frame, Outcome::kOutputFailed);
-    fail(std::move(written.error()));
+    fail(written.error());
+    return;
+  }
+  if (!written.isYes()) {
+    end(due.frame, Outcome::kNoSurface);
     return;
   }
   if (isSkipped) {

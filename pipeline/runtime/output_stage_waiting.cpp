@@ -39,6 +39,8 @@ void OutputStage::presentWaiting() {
   if (fits && surfaces == nullptr) {
     const auto written = output_->memory()->write(picture->view(), {});
     if (!written) submitted = tl::unexpected(written.error());
+    const std::scoped_lock lock(mutex_);
+    directOnScreen_.reset();
   }
   if (submitted.hasError() || (fits && submitted.isYes())) fade_.end();
   if (fits && submitted.isYes() && fades) fade_.begin(picture);

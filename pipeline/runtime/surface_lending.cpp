@@ -74,15 +74,16 @@ bool SurfaceLending::isCurrent(const hal::LentSurface& surface) const {
   return state_ == State::kInUse && loan_->number == surface.loan;
 }
 
-hal::Result<void> SurfaceLending::step(hal::SurfaceOutput& output, std::size_t count) {
+hal::Result<void> SurfaceLending::step(hal::GpuSurfaceLender& lender, const std::string& name,
+                                       std::size_t count, std::size_t comparisons) {
   State state{};
   {
     const std::scoped_lock lock(mutex_);
     state = state_;
   }
-  if (state == State::kOffered) return lend(output, count);
-  if (state == State::kDrawn) return compare(output);
-  if (state == State::kInUse) return keepReady(output);
+  if (state == State::kOffered) return lend(lender, name, count);
+  if (state == State::kDrawn) return compare(lender, comparisons);
+  if (state == State::kInUse) return keepReady(lender);
   return {};
 }
 
@@ -97,21 +98,37 @@ void SurfaceLending::refuse(const hal::Error& error) {
   status_.took = clock_.now() - began_;
 }
 
-hal::Result<void> SurfaceLending::lend(hal::SurfaceOutput& output, std::size_t count) {
+/// Whether the painter can draw into surfaces of this kind. Precondition: the mutex is held.
+hal::Result<void> SurfaceLending::checkOffer(hal::GpuSurfaceLender& lender,
+                                             const std::string& name) const {
+  const hal::Result<void*> display = lender.eglDisplay();
+  if (!display) return tl::unexpected(display.error());
+  hal::Error error{
+      .kind = hal::ErrorKind::kUnsupported, .subject = "GPU", .problem = {}, .remedy = {}};
+  if (*display == nullptr) {
+    if (!layouts_.modifiers.empty()) return {};
+    error.problem = layouts_.problem;
+  } else {
+    if (*display == layouts_.eglDisplay) return {};
+    error.problem =
+        layouts_.apartBecause.empty() ? "shares no textures with " + name : layouts_.apartBecause;
+  }
+  return tl::unexpected(std::move(error));
+}
+
+hal::Result<void> SurfaceLending::lend(hal::GpuSurfaceLender& lender, const std::string& name,
+                                       std::size_t count) {
   std::vector<std::uint64_t> modifiers;
   {
     const std::scoped_lock lock(mutex_);
     began_ = clock_.now();
-    if (layouts_.modifiers.empty()) {
-      refuse({.kind = hal::ErrorKind::kUnsupported,
-              .subject = "GPU",
-              .problem = layouts_.problem,
-              .remedy = {}});
+    if (auto offered = checkOffer(lender, name); !offered) {
+      refuse(offered.error());
       return {};
     }
     modifiers = layouts_.modifiers;
   }
-  hal::Result<std::vector<hal::GpuSurface>> lent = output.lendToGpu(modifiers, count);
+  hal::Result<std::vector<hal::GpuSurface>> lent = lender.lendToGpu(modifiers, count);
   const std::scoped_lock lock(mutex_);
   if (!lent) {
     refuse(lent.error());
@@ -123,7 +140,7 @@ hal::Result<void> SurfaceLending::lend(hal::SurfaceOutput& output, std::size_t c
   loan->surfaces = *std::move(lent);
   if (!ownDescriptors(*loan)) {
     refuse({.kind = hal::ErrorKind::kUnsupported,
-            .subject = output.identity().id,
+            .subject = name,
             .problem = "has buffers that cannot be shared with the GPU",
             .remedy = {}});
     return {};
@@ -131,26 +148,29 @@ hal::Result<void> SurfaceLending::lend(hal::SurfaceOutput& output, std::size_t c
   if (state_ != State::kOffered) return {};
   ready_.reserve(2 * count);
   loan_ = std::move(loan);
+  compared_ = 0;
   state_ = State::kLent;
   return {};
 }
 
 /// Looks at what the painter has drawn, from the output's side.
-hal::Result<void> SurfaceLending::compare(hal::SurfaceOutput& output) {
+hal::Result<void> SurfaceLending::compare(hal::GpuSurfaceLender& lender, std::size_t comparisons) {
   std::shared_ptr<const SurfaceLoan> loan;
   {
     const std::scoped_lock lock(mutex_);
     loan = loan_;
   }
+  if (!loan) return {};  // another painter has come meanwhile
   std::optional<hal::Error> wrong;
-  for (const hal::GpuSurface& each : loan->surfaces) {
-    const hal::Result<hal::Image> seen = output.copyOfGpuSurface(each.surface.id, true);
+  const std::size_t end = std::min(compared_ + comparisons, loan->surfaces.size());
+  for (; compared_ < end && !wrong; ++compared_) {
+    const hal::SurfaceId surface = loan->surfaces[compared_].surface.id;
+    const hal::Result<hal::Image> seen = lender.copyOfGpuSurface(surface, true);
     if (!seen) {
       wrong = seen.error();
-    } else if (auto same = hal::checkSurfacePattern(seen->view(), each.surface.id); !same) {
+    } else if (auto same = hal::checkSurfacePattern(seen->view(), surface); !same) {
       wrong = same.error();
     }
-    if (wrong) break;
   }
   const std::scoped_lock lock(mutex_);
   if (state_ != State::kDrawn || loan_ != loan) return {};
@@ -159,17 +179,20 @@ hal::Result<void> SurfaceLending::compare(hal::SurfaceOutput& output) {
     if (wrong->kind == hal::ErrorKind::kDeviceLost) return tl::unexpected(*wrong);
     return {};
   }
+  if (compared_ < loan->surfaces.size()) return {};
   state_ = State::kInUse;
   status_.path = ScanOut::Path::kDirect;
-  status_.reason = hal::layoutText(loan->surfaces.front().surface.modifier);
+  const hal::GpuSurface& first = loan->surfaces.front();
+  status_.reason =
+      first.texture.image ? "shared textures" : hal::layoutText(first.surface.modifier);
   status_.surfaces = loan->surfaces.size();
   status_.took = clock_.now() - began_;
   return {};
 }
 
-hal::Result<void> SurfaceLending::keepReady(hal::SurfaceOutput& output) {
+hal::Result<void> SurfaceLending::keepReady(hal::GpuSurfaceLender& lender) {
   for (;;) {
-    const hal::Result<std::optional<hal::SurfaceId>> free = output.acquireForGpu();
+    const hal::Result<std::optional<hal::SurfaceId>> free = lender.acquireForGpu();
     const std::scoped_lock lock(mutex_);
     if (!free) {
       if (state_ == State::kInUse) refuse(free.error());

@@ -24,18 +24,21 @@ struct SurfaceLoan {
   std::vector<hal::FileDescriptor> descriptors;
 };
 
-/// The layouts that a painter draws into (modifiers of drm_fourcc.h, for XRGB8888).
+/// What a painter draws into: layouts of memory with descriptors (modifiers of drm_fourcc.h, for
+/// XRGB8888), and textures that are shared on one EGLDisplay.
 struct DrawableLayouts {
   std::vector<std::uint64_t> modifiers;
-  std::string problem;  ///< why there are none
+  std::string problem;            ///< why there are none
+  void* eglDisplay = nullptr;     ///< null: no textures
+  std::string apartBecause = {};  ///< why it is not another's, if that is known
 };
 
-/// How pictures reach the memory that a display scans out, and why so.
+/// How pictures reach the memory that a display scans out, or a window, and why so.
 struct ScanOut {
   enum class Path {
-    kUnknown,  ///< not an output that lends surfaces, or not found out yet
+    kUnknown,  ///< not an output that lends surfaces to a GPU, or not found out yet
     kCopied,   ///< read back from the GPU, and copied by the processor
-    kDirect,   ///< the GPU draws into it
+    kDirect,   ///< the GPU draws into it, or into a texture that a window is drawn from
   };
   Path path = Path::kUnknown;
   std::string reason;          ///< of kCopied; of kDirect, the layout
@@ -66,8 +69,11 @@ class SurfaceLending {
 
   // Output thread.
 
-  /// Goes on with the trial, of `count` surfaces, and keeps them ready. Errors: kDeviceLost.
-  hal::Result<void> step(hal::SurfaceOutput& output, std::size_t count);
+  /// Goes on with the trial, of `count` surfaces, and keeps them ready. `name`: of the output, in
+  /// messages. `comparisons`: how many surfaces are compared at a time, each of which may take some
+  /// 10 ms. Errors: kDeviceLost.
+  hal::Result<void> step(hal::GpuSurfaceLender& lender, const std::string& name, std::size_t count,
+                         std::size_t comparisons);
   /// The output has gone, or shows another stream: nothing that was lent is valid any more. A trial
   /// begins again at the next step().
   void restart();
@@ -87,9 +93,10 @@ class SurfaceLending {
  private:
   enum class State { kIdle, kOffered, kLent, kDrawn, kInUse, kRefused };
 
-  hal::Result<void> lend(hal::SurfaceOutput& output, std::size_t count);
-  hal::Result<void> compare(hal::SurfaceOutput& output);
-  hal::Result<void> keepReady(hal::SurfaceOutput& output);
+  hal::Result<void> checkOffer(hal::GpuSurfaceLender& lender, const std::string& name) const;
+  hal::Result<void> lend(hal::GpuSurfaceLender& lender, const std::string& name, std::size_t count);
+  hal::Result<void> compare(hal::GpuSurfaceLender& lender, std::size_t comparisons);
+  hal::Result<void> keepReady(hal::GpuSurfaceLender& lender);
   void refuse(const hal::Error& error);
 
   const hal::Clock& clock_;
@@ -98,6 +105,7 @@ class SurfaceLending {
   DrawableLayouts layouts_;
   std::shared_ptr<const SurfaceLoan> loan_;
   std::uint64_t loans_ = 0;
+  std::size_t compared_ = 0;           ///< of the loan's surfaces
   std::vector<hal::SurfaceId> ready_;  ///< acquired, for take()
   hal::TimePoint began_;
   ScanOut status_;

@@ -327,6 +327,27 @@ TEST_F(RunInWindow, SavesTheFinishedPictureUnderAnyView) {
   }
 }
 
+TEST_F(RunInWindow, DrawsIntoTheWindowWhatACopyShows) {
+  hal::Image picture = testPicture(kRgb, 0);
+  for (std::size_t i = 0; i < picture.plane(0).size(); i += 3) picture.plane(0)[i] ^= 0x40;
+  hal::orThrow(hal::writePng(path("in.png"), picture.view()));
+  for (const std::string way : {"direct", "copied"}) {
+    const ProgramRun live = runShown(
+        {"--camera", path("in.png"), "--style", "none", "--set", "output.window.scan_out=" + way},
+        [&](pid_t) {
+          EXPECT_TRUE(comesToShow(picture)) << way;
+          std::this_thread::sleep_for(1500ms);  // a trial takes some frames
+          EXPECT_TRUE(comesToShow(picture)) << way << ", after the trial";
+          server_->press({"q"});
+        });
+    EXPECT_EQ(live.status, 0) << live.error;
+    EXPECT_THAT(
+        live.error,
+        HasSubstr(way == "direct" ? "window: the GPU draws straight into it, shared textures"
+                                  : "window: pictures are copied: window: is set to copy"));
+  }
+}
+
 TEST_F(RunInWindow, GoesOnWithTheMovieWhereTheXServerDies) {
   writeMedia(path("in.y4m"), 10, kSize);
   const ProgramRun live = runShown({"--camera", path("in.y4m"), "--output", "window", "--output",

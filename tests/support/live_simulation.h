@@ -128,6 +128,8 @@ struct SimulatedGpu {
 
   static constexpr std::uint32_t kDrawn = 0x00500000;
   std::vector<std::uint64_t> drawable;    ///< layouts; empty: it only reads back
+  void* eglDisplay = nullptr;             ///< whose textures it draws into
+  std::string apartBecause;               ///< why that is not the window's
   std::optional<hal::Error> importError;  ///< of every import
   bool drawsWrong = false;                ///< a pixel of what it draws into surfaces is another
   int imports = 0;
@@ -185,7 +187,9 @@ class SimulatedPainter final : public runtime::FramePainter {
     forgetTaken();
   }
 
-  runtime::DrawableLayouts drawable() override { return {gpu_.drawable, "draws nowhere else"}; }
+  runtime::DrawableLayouts drawable() override {
+    return {gpu_.drawable, "draws nowhere else", gpu_.eglDisplay, gpu_.apartBecause};
+  }
   hal::Result<void> importLoan(std::size_t output, const runtime::SurfaceLoan& loan) override {
     ++gpu_.imports;
     if (gpu_.isLost) return tl::unexpected(lost());

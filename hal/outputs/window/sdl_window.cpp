@@ -5,11 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "hal/outputs/window/caption.h"
 #include "hal/outputs/window/key_name.h"
+#include "hal/outputs/window/lent_textures.h"
 #include "hal/outputs/window/sdl_video.h"
 #include "hal/outputs/window/window.h"
 #include "hal/outputs/window/window_layout.h"
@@ -60,7 +63,7 @@ std::optional<Refresh> refreshOf(SDL_Window* window) {
   return Refresh{.period = Duration(std::chrono::seconds(1)) / mode.refresh_rate, .phase = {}};
 }
 
-class SdlWindow final : public Window {
+class SdlWindow final : public Window, public GpuSurfaceLender {
  public:
   SdlWindow(SdlVideo video, WindowSettings settings)
       : video_(std::move(video)), settings_(std::move(settings)) {}
@@ -75,6 +78,14 @@ class SdlWindow final : public Window {
   Result<void> write(const ImageView& picture, Duration time) override;
   Result<OutputFormat> reconfigure(const OutputRequest& request) override;
   Result<void> finish() override { return {}; }
+
+  GpuSurfaceLender* lender() override { return this; }
+  Result<void*> eglDisplay() override;
+  Result<std::vector<GpuSurface>> lendToGpu(std::span<const std::uint64_t> modifiers,
+                                            std::size_t count) override;
+  Result<std::optional<SurfaceId>> acquireForGpu() override;
+  Result<Image> copyOfGpuSurface(SurfaceId surface, bool isWholeBuffer) override;
+  Result<void> show(SurfaceId surface, Duration time) override;
 
   std::vector<WindowEvent> takeEvents() override;
   void setCaption(const std::string& text, double opacity) override;
@@ -111,6 +122,8 @@ class SdlWindow final : public Window {
   WindowHandle window_;
   RendererHandle renderer_;
   TextureHandle texture_;
+  window::LentTextures lent_;
+  Result<void*> display_ = nullptr;  ///< LentTextures::displayOf()
   window::Caption caption_;
   bool hasPicture_ = false;
   SDL_Rect placeBefore_{};  ///< before the window filled the screen
@@ -159,6 +172,7 @@ Result<OutputFormat> SdlWindow::reconfigure(const OutputRequest& request) {
   if (Result<void> made = makeTexture(request.size); !made) return tl::unexpected(made.error());
   format_.size = request.size;
   hasPicture_ = false;
+  lent_.clear();
   if (!isFullScreen_) {
     const int display = std::max(0, SDL_GetWindowDisplayIndex(window_.get()));
     SDL_Rect room{.x = 0, .y = 0, .w = request.size.width, .h = request.size.height};
@@ -188,7 +202,10 @@ Result<void> SdlWindow::open(FrameSize picture) {
   renderer_ = makeRenderer(window_.get());
   if (renderer_ == nullptr) return tl::unexpected(failure(ErrorKind::kIo, "cannot draw"));
   if (Result<void> made = makeTexture(picture); !made) return made;
-  return draw();
+  if (Result<void> drawn = draw(); !drawn) return drawn;
+  display_ = window::LentTextures::displayOf(renderer_.get(),
+                                             settings_.lending == WindowSettings::Lending::kAlways);
+  return {};
 }
 
 Result<void> SdlWindow::makeTexture(FrameSize picture) {
@@ -227,10 +244,11 @@ Result<void> SdlWindow::draw() {
   const SDL_Rect box{.x = area.x, .y = area.y, .w = area.size.width, .h = area.size.height};
   const auto flip = settings_.isMirrored ? SDL_FLIP_HORIZONTAL : SDL_FLIP_NONE;
   const bool isPlain = settings_.quarterTurns == 0 && !settings_.isMirrored;
+  SDL_Texture* const picture = lent_.seen() != nullptr ? lent_.seen() : texture_.get();
   const auto copy = [&] {
-    if (isPlain) return SDL_RenderCopy(renderer_.get(), texture_.get(), nullptr, &box);
-    return SDL_RenderCopyEx(renderer_.get(), texture_.get(), nullptr, &box,
-                            90.0 * settings_.quarterTurns, nullptr, flip);
+    if (isPlain) return SDL_RenderCopy(renderer_.get(), picture, nullptr, &box);
+    return SDL_RenderCopyEx(renderer_.get(), picture, nullptr, &box, 90.0 * settings_.quarterTurns,
+                            nullptr, flip);
   };
   if (hasPicture_ && copy() != 0) {
     return tl::unexpected(failure(ErrorKind::kDeviceLost, "cannot draw"));
@@ -252,6 +270,49 @@ Result<void> SdlWindow::write(const ImageView& picture, Duration) {
     std::ranges::copy(row, static_cast<std::uint8_t*>(pixels) + std::ptrdiff_t{strideBytes} * y);
   }
   SDL_UnlockTexture(texture_.get());
+  lent_.hide();
+  hasPicture_ = true;
+  return redraw();
+}
+
+Result<void*> SdlWindow::eglDisplay() {
+  if (settings_.lending != WindowSettings::Lending::kNever) return display_;
+  return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
+                              .subject = kSubject,
+                              .problem = "is set to copy pictures (scan_out)",
+                              .remedy = {}});
+}
+
+Result<std::vector<GpuSurface>> SdlWindow::lendToGpu(std::span<const std::uint64_t> /*modifiers*/,
+                                                     std::size_t count) {
+  assert(isStarted());
+  if (display_connection::isLost()) return tl::unexpected(displayLost());
+  if (const Result<void*> display = eglDisplay(); !display) return tl::unexpected(display.error());
+  return lent_.lend(renderer_.get(), format_.size, count);
+}
+
+Result<std::optional<SurfaceId>> SdlWindow::acquireForGpu() {
+  assert(isStarted());
+  if (display_connection::isLost()) return tl::unexpected(displayLost());
+  return lent_.acquire();
+}
+
+Result<Image> SdlWindow::copyOfGpuSurface(SurfaceId surface, bool isWholeBuffer) {
+  assert(isStarted());
+  if (display_connection::isLost()) return tl::unexpected(displayLost());
+  if (!isWholeBuffer && !lent_.isSeen(surface)) {
+    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
+                                .subject = kSubject,
+                                .problem = "has another picture by now",
+                                .remedy = {}});
+  }
+  return lent_.copy(renderer_.get(), surface);
+}
+
+Result<void> SdlWindow::show(SurfaceId surface, Duration) {
+  assert(isStarted());
+  if (display_connection::isLost()) return tl::unexpected(displayLost());
+  lent_.show(surface);
   hasPicture_ = true;
   return redraw();
 }
@@ -262,6 +323,7 @@ Result<void> SdlWindow::redraw() {
   if (Result<void> drawn = draw(); !drawn) return drawn;
   SDL_RenderPresent(renderer_.get());
   if (display_connection::isLost()) return tl::unexpected(displayLost());
+  lent_.drawn();
   return {};
 }
 

@@ -31,6 +31,10 @@ struct WindowSettings {
   /// desktop, too, and captions are not shown.
   bool takesKeys = true;
   bool hidesCursor = false;  ///< always; else in full screen only
+  /// Whether it lends textures that a painter draws straight into, where it can: where it is drawn
+  /// by a GPU, always, or never. Software takes turns at drawing for two contexts of one display.
+  enum class Lending { kByGpus, kAlways, kNever };
+  Lending lending = Lending::kByGpus;
   friend bool operator==(const WindowSettings&, const WindowSettings&) = default;
 };
 
@@ -38,7 +42,9 @@ struct WindowSettings {
 /// All of it, over all windows of the process, on one thread, which is asserted.
 ///
 /// start() shows it in the picture's size where that fits the screen, and answers RGBA8 and the
-/// period of the screen's refresh. Errors of start() also: kNotFound (no such display; lists them).
+/// period of the screen's refresh. Where it is drawn by OpenGL ES through EGL, it lends textures
+/// (lender()) to painters whose context is on the same EGL display, and is drawn from them; after
+/// start(). Errors of start() also: kNotFound (no such display; lists them).
 class Window : public MemoryOutput {
  public:
   /// The events since the last call, oldest first. To be called several times a second; otherwise

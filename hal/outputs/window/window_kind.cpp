@@ -30,6 +30,11 @@ WindowSettings settingsOf(const OutputOptions& options) {
   settings.isMirrored = valueOf(options, "mirror") == "true";
   settings.takesKeys = valueOf(options, "keys") != "locked";
   settings.hidesCursor = valueOf(options, "cursor") == "hidden";
+  const std::string scanOut = valueOf(options, "scan_out");
+  using Lending = WindowSettings::Lending;
+  settings.lending = scanOut == "direct"   ? Lending::kAlways
+                     : scanOut == "copied" ? Lending::kNever
+                                           : Lending::kByGpus;
   return settings;
 }
 
@@ -64,7 +69,12 @@ OutputKind windowKind() {
                        .choices = {"free", "locked"}},
                       {.name = "cursor",
                        .help = "Whether the mouse pointer is seen; \"auto\": not in full screen.",
-                       .choices = {"auto", "hidden"}}},
+                       .choices = {"auto", "hidden"}},
+                      {.name = "scan_out",
+                       .help = "Whether paintings are drawn straight into the window's textures, "
+                               "where a trial has shown that this works: \"auto\" by GPUs, "
+                               "\"direct\" by software, too; or pictures are always copied.",
+                       .choices = {"auto", "direct", "copied"}}},
           .recognizes = [](const std::string& target) { return target == "window"; },
           .list = listWindow,
           .problemOf = [](const std::string&) { return listWindow().problem; },

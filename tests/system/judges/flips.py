@@ -1,7 +1,13 @@
-"""Parses the table that runtime.frame_log writes: when frames were due, and when a display showed them."""
+#!/usr/bin/env python3
+"""Parses the table that runtime.frame_log writes: when frames were due, and when a display showed them.
+
+usage: flips.py TABLE.csv OUTPUT PLOT.svg [HERTZ]     plots the flips of an output ("display") against their due times
+"""
 import copy
 import csv
 import statistics
+import sys
+import xml.sax.saxutils
 
 
 class Flips:
@@ -66,7 +72,7 @@ class Flips:
             return 130 - 100 * max(-1, min(1, off / limit))
         parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
                  'font-family="sans-serif" font-size="12"><rect width="100%" height="100%" fill="white"/>'
-                 f'<text x="60" y="18">{title}</text>']
+                 f'<text x="60" y="18">{xml.sax.saxutils.escape(title)}</text>']
         for refreshes in range(-4, 5):
             level = y(refreshes * period)
             parts.append(f'<line x1="60" x2="{width - 20}" y1="{level}" y2="{level}" stroke="#ddd"/>'
@@ -82,3 +88,18 @@ class Flips:
         parts.append(f'<text x="60" y="{height - 4}">due, over {end - begin:.0f} s</text></svg>')
         with open(path, "w") as file:
             file.write("\n".join(parts))
+
+
+def main():
+    table, output, plot, *hertz = sys.argv[1:]
+    flips = Flips(table, output)
+    if not flips.rows:
+        sys.exit(f"{table}: no frames of {output}")
+    off = flips.off()
+    title = (f"{output}: {len(flips.rows)} frames, {len(off)} of them flipped at a known refresh, "
+             f"{sum(each == 0 for each in off)} at the due one")
+    flips.write_plot(plot, title, 1 / float(hertz[0] if hertz else 60))
+
+
+if __name__ == "__main__":
+    main()

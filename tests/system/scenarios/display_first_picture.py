@@ -15,7 +15,7 @@ EXEC = "sched_process_exec: filename=/tmp/pleinair"
 FLIP = r"drm_vblank_event_delivered: file=0*[1-9a-f]"  # one that a program asked for
 FRAME = "v4l2_dqbuf"
 FIRST_MS = 300  # on hardware
-NEXT_MS = 150  # the aim is 100; drawing the picture takes most of it
+NEXT_MS = 100
 RUNS = 5
 BUSY = 2.5  # so many times its processor's time a start may take on a machine that does nothing else
 
@@ -46,7 +46,10 @@ def run(guest):
     plugged = live.uptime(guest)
     live.plug(guest)
     came = trace.wait_for(FRAME, plugged)
-    told = trace.wait_for(FLIP, came) - came
+    trace.wait_for(FLIP, came)
+    # The camera's name may come first, then what is done with its frames; paintings come much later.
+    guest.run("sleep 2")
+    told = trace.all_of(FLIP, came)[-1] - came
     print(f"the picture of the camera's first frame after {told:.2f} s: {1000 * told / patience:.0f} ms × patience")
     print(watched.stop(10))
     if wall > BUSY * processor:
@@ -69,21 +72,17 @@ class Trace:
 
     def wait_for(self, event, after):
         """The time of the first such event after a time, on the guest's monotonic clock."""
-        found = []
+        self._guest.wait_for(lambda: self.all_of(event, after), event, seconds=60)
+        return self.all_of(event, after)[0]
 
-        def is_there():
-            if not os.path.exists(self._path):
-                return False
-            with open(self._path, errors="replace") as file:
-                for line in file:
-                    matched = re.match(r".*?\s(\d+\.\d+): (.*)", line)
-                    if matched and re.match(event, matched[2]) and float(matched[1]) > after:
-                        found.append(float(matched[1]))
-                        return True
-            return False
-
-        self._guest.wait_for(is_there, event, seconds=60)
-        return found[0]
+    def all_of(self, event, after):
+        """The times of all such events so far."""
+        if not os.path.exists(self._path):
+            return []
+        with open(self._path, errors="replace") as file:
+            lines = [re.match(r".*?\s(\d+\.\d+): (.*)", line) for line in file]
+        return [float(line[1]) for line in lines
+                if line and re.match(event, line[2]) and float(line[1]) > after]
 
 
 # Patience is how long the start of pleinair itself takes in the guest, over that on this machine: an emulator translates

@@ -16,6 +16,7 @@
 #include "pipeline/runtime/live_pipeline.h"
 #include "tests/support/fake_card.h"
 #include "tests/support/live_simulation.h"
+#include "tests/support/process_resources.h"
 
 namespace pleinair::runtime {
 namespace {
@@ -178,6 +179,40 @@ TEST_F(DirectPainting, GoesOnWithTheCardThatCameBackWhileSurfacesWereLent) {
   const std::size_t before = cards_.shown.size();
   live_.runFor(1s);
   EXPECT_GE(directSince(before), 29);
+  expectSumsToAgree();
+}
+
+TEST_F(DirectPainting, AHundredUnplugsOfMonitorAndCardLeaveNothingBehind) {
+  begin();
+  const auto unplug = [&](bool& state, bool unplugged) {
+    state = unplugged;
+    live_.runFor(1200ms);  // the connector is looked at once a second
+    ASSERT_TRUE(stage_->status().isFailed);
+    ASSERT_EQ(cards_.openCards, 0);
+    ASSERT_EQ(cards_.buffers + cards_.gpuBuffers + cards_.blobs, 0)
+        << "of the display that is gone";
+    state = !unplugged;
+    stage_->retry();  // as an event of the kernel's does
+    live_.runFor(400ms);
+    ASSERT_EQ(scanOut().path, ScanOut::Path::kDirect) << scanOut().reason;
+    ASSERT_FALSE(stage_->status().isFailed);
+  };
+  live_.runFor(500ms);
+  bool& isConnected = card_->connectors.front().isConnected;
+  ASSERT_NO_FATAL_FAILURE(unplug(card_->isGone, true));  // so that all that lasts is there
+  const support::ProcessResources before = support::ProcessResources::now();
+  const int buffers = cards_.buffers;
+  const int gpuBuffers = cards_.gpuBuffers;
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_NO_FATAL_FAILURE(unplug(isConnected, false)) << "monitor " << i;
+    ASSERT_NO_FATAL_FAILURE(unplug(card_->isGone, true)) << "card " << i;
+  }
+  const support::ProcessResources after = support::ProcessResources::now();
+  EXPECT_EQ(after.descriptors, before.descriptors);
+  EXPECT_EQ(after.threads, before.threads);
+  EXPECT_EQ(cards_.buffers, buffers);
+  EXPECT_EQ(cards_.gpuBuffers, gpuBuffers);
+  EXPECT_EQ(cards_.openCards, 1);
   expectSumsToAgree();
 }
 
