@@ -158,5 +158,6 @@ function(pleinair_benchmark name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE pleinair_build ${ARG_LIBS} benchmark::benchmark_main)
-  target_compile_definitions(${name} PRIVATE PLEINAIR_SHARED_DATA="${PLEINAIR_SHARED_DATA}")
+  target_compile_definitions(${name} PRIVATE PLEINAIR_SHARED_DATA="${PLEINAIR_SHARED_DATA}"
+    PLEINAIR_TESTS_DIR="${CMAKE_SOURCE_DIR}/tests")
 endfunction()

@@ -26,9 +26,14 @@ void addNew(CLI::App& procedure, ProcedureNewOptions& options, std::function<int
       ->type_name("");
   command
       .add_option("--model", options.model,
-                  "a .glb file, which is copied, a model in FOLDER, or builtin:gearbox")
+                  "a .glb or .stl file, which is copied, a model in FOLDER, or builtin:gearbox")
       ->required()
       ->type_name("FILE|NAME");
+  command
+      .add_option("--units", options.units,
+                  "the unit of the model's lengths, which STL and OBJ files do not say")
+      ->check(CLI::IsMember({"m", "mm", "cm", "in"}))
+      ->type_name("UNIT");
   command
       .add_option("--language", options.languages,
                   "a language of its texts; repeatable (default: en)")

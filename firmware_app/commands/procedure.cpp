@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/gtc/matrix_transform.hpp>
 #include <spdlog/spdlog.h>
 
 #include "firmware_app/cli/exit_status.h"
@@ -23,7 +24,12 @@ using procedure::Procedure;
 scene::Scene sceneOf(const Procedure& procedure) {
   scene::Scene scene;
   scene.models.push_back(
-      {.name = "model", .source = procedure.source, .model = procedure.model, .tagId = 0});
+      {.name = "model",
+       .source = procedure.source,
+       .model = procedure.model,
+       .tagId = 0,
+       .attachFromModel = glm::scale(glm::dmat4(1.0), glm::dvec3(procedure.unitMetres)),
+       .unitMetres = procedure.unitMetres});
   return scene;
 }
 
@@ -41,12 +47,12 @@ std::vector<std::string> modelFindings(const Procedure& procedure) {
   const glm::dvec3 size = box.most - box.least;
   const double longest = std::max({size.x, size.y, size.z});
   if (longest > kHugeMetres) {
-    findings.push_back(fmt::format(
-        "the model is {} large; glTF's unit is the metre: export it in metres, not millimetres",
-        sizeText(box)));
+    findings.push_back(
+        fmt::format("the model is {} large: export it in metres, or say units = \"mm\" in [model]",
+                    sizeText(box)));
   } else if (longest > 0.0 && longest < kTinyMetres) {
     findings.push_back(fmt::format(
-        "the model is {} small; glTF's unit is the metre: it may have been scaled twice",
+        "the model is {} small: it may have been scaled twice, or its units are not these",
         sizeText(box)));
   }
   for (const std::string& notice : procedure.model->notices) findings.push_back(notice);

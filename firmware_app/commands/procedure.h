@@ -22,12 +22,13 @@ int checkProcedure(const ProcedureCheckOptions& options);
 
 struct ProcedureNewOptions {
   std::filesystem::path folder;        ///< new, or empty, or holding the model
-  std::string model;                   ///< a .glb or .gltf file, or a built-in model
+  std::string model;                   ///< a model file, or a built-in model
+  std::string units;                   ///< of the file's lengths: "mm"; empty: the file's own
   std::vector<std::string> languages;  ///< empty: English
 };
 
 /// Writes the first version of a procedure, with a step for each node of the model: `pleinair
-/// procedure new`. A .glb file is copied into the folder. Throws hal::Failure; nothing is
+/// procedure new`. A .glb or .stl file is copied into the folder. Throws hal::Failure; nothing is
 /// overwritten. Returns the exit status.
 int newProcedure(const ProcedureNewOptions& options);
 

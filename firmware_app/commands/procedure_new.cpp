@@ -5,11 +5,13 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "config/config_error.h"
 #include "config/toml_reader.h"
 #include "config/toml_text.h"
 #include "firmware_app/cli/standard_streams.h"
@@ -51,11 +53,11 @@ ModelFile modelFileOf(const ProcedureNewOptions& options) {
   if (isInside(file, options.folder)) {
     return {.source = fs::relative(file, options.folder).string()};
   }
-  if (file.extension() == ".glb") {
+  if (file.extension() == ".glb" || file.extension() == ".stl") {
     return {.source = file.filename().string(), .copied = file};
   }
   throw refusedProcedure(options.model, "may have its data in other files, so it is not copied",
-                         "a .glb file, or the model already in " + options.folder.string());
+                         "a .glb or .stl file, or the model already in " + options.folder.string());
 }
 
 /// Throws where something would be overwritten.
@@ -73,8 +75,22 @@ scene::ModelSource sourceOf(const ProcedureNewOptions& options) {
   // As the procedure's [model] will be read, so that the same names and errors hold.
   const auto text = config::tomlString(options.model);
   if (!text) throw refusedProcedure("--model", "is not UTF-8", "a file name in UTF-8");
-  const auto document = config::TomlDocument::parseText("source = " + *text, "--model");
-  return scene::readSource(document.root(), {});
+  std::string keys = "source = " + *text + "\n";
+  if (!options.units.empty()) keys += "units = \"" + options.units + "\"\n";
+  const auto document = config::TomlDocument::parseText(keys, "--model");
+  scene::ModelSource source = scene::readSource(document.root(), {});
+  const auto* const file = std::get_if<scene::FileSource>(&source);
+  if (file == nullptr && !options.units.empty()) {
+    throw refusedProcedure("--units", "has no meaning for " + options.model, "no --units");
+  }
+  if (file == nullptr) return source;
+  try {
+    scene::readFileUnits(document.root(), *file);
+  } catch (const config::ConfigError&) {
+    throw refusedProcedure(options.model, "does not say its units",
+                           "--units mm (most CAD programs), cm, m or in");
+  }
+  return source;
 }
 
 void writeFile(const fs::path& path, const std::string& text) {
@@ -101,7 +117,8 @@ int newProcedure(const ProcedureNewOptions& options) {
   }
   std::string name = fs::absolute(options.folder).lexically_normal().filename().string();
   if (name.empty() || !config::tomlString(name)) name = "procedure";
-  const procedure::Skeleton skeleton = procedure::skeletonOf(model, name, file.source, languages);
+  const procedure::Skeleton skeleton =
+      procedure::skeletonOf(model, name, file.source, options.units, languages);
   std::error_code failure;
   fs::create_directories(options.folder, failure);
   if (failure) {

@@ -15,6 +15,7 @@
 #include <fmt/ranges.h>
 
 #include "config/config_error.h"
+#include "firmware_app/overlay/machine.h"
 #include "hal/media/picture_file.h"
 #include "pipeline/inspection/part_inspection.h"
 #include "pipeline/procedure/procedure_file.h"
@@ -78,28 +79,20 @@ fs::path newRecord(const fs::path& folder, const std::string& procedure) {
 
 constexpr double kPartMargin = 1.15;  // of what is compared, about the step's parts
 
-scene::BoundingSphere sphereOf(const scene::Model& model, const std::vector<std::size_t>& parts) {
-  scene::Model chosen = model;
-  chosen.parts.clear();
-  for (const std::size_t part : parts) chosen.parts.push_back(model.parts[part]);
-  scene::numberParts(chosen);
-  return scene::boundingSphere(chosen);
-}
-
 /// What a step asks for, and the keys.
 std::string requestOf(const procedure::Step& step, const procedure::StepText& text,
-                      const std::string& typed) {
-  if (!step.check) return "Page Down: done";
+                      const std::string& typed, const procedure::Words& words) {
+  if (!step.check) return std::string(words.pressDone);
   switch (step.check->kind) {
     case CheckKind::kYesNo:
       return text.question + "  (y, n)";
     case CheckKind::kValue:
-      return fmt::format("{}: {}_ ({}), then Enter", text.question, typed,
-                         procedure::limitsText(*step.check));
+      return fmt::format("{}: {}_ ({}), {}", text.question, typed,
+                         procedure::limitsText(*step.check), words.pressValue);
     case CheckKind::kPhoto:
-      return "Page Down: photo";
+      return std::string(words.pressPhoto);
     case CheckKind::kCompare:
-      return "Compare with the picture: Page Down, or y (equal), n (not), u (uncertain)";
+      return fmt::format("{}: {}", words.comparison, words.pressCompare);
   }
   return {};
 }
@@ -335,12 +328,13 @@ void LiveProcedure::compare(const hal::Image& still,
   if (pose->camera.imageSize() != picture->size()) {
     return note(file.string() + ": its pose is for another size: take the template anew");
   }
-  const scene::BoundingSphere sphere =
-      sphereOf(*stepper().procedure().model, stepper().step().parts);
+  const PartSurface part = surfaceOfParts(*stepper().procedure().model, stepper().step().parts);
   const inspection::Inspection result =
       inspection::inspectPart({picture->view(), pose->camera, pose->cameraFromModel},
                               {still.view(), place->camera, place->cameraFromModel},
-                              glm::dvec3(sphere.centre), kPartMargin * sphere.radiusMetres);
+                              {.centre = glm::dvec3(part.sphere.centre),
+                               .radiusMetres = kPartMargin * part.sphere.radiusMetres,
+                               .triangles = part.triangles});
   const std::string before = stepper().step().id;
   commit(result.verdict == inspection::Verdict::kPass   ? Comparison::kPass
          : result.verdict == inspection::Verdict::kFail ? Comparison::kFail
@@ -540,13 +534,11 @@ void LiveProcedure::poll() {
 std::string LiveProcedure::text() const {
   const Procedure& procedure = stepper().procedure();
   if (isSignedOff()) return {};
-  if (stepper().isFinished()) {
-    return session_ ? "The end. Enter: sign off, Page Up: back" : "The end. Page Up: back";
-  }
+  const procedure::Words& words = procedure::wordsIn(options_.language);
+  if (stepper().isFinished()) return fmt::format("{}. {}", words.theEnd, requestAtEnd());
   const std::size_t index = stepper().current();
   const procedure::Step& step = stepper().step();
   const procedure::StepText& text = procedure.text(index, options_.language);
-  const procedure::Words& words = procedure::wordsIn(options_.language);
   std::string lines = fmt::format("{}/{}  {}", index + 1, procedure.steps.size(), text.title);
   for (const std::size_t each : step.warnings) {
     const procedure::Warning& warning = procedure.warnings[each];
@@ -555,7 +547,13 @@ std::string LiveProcedure::text() const {
   }
   if (!text.body.empty()) lines += "\n" + procedure::plainText(text.body);
   if (step.torque) lines += fmt::format("\n{}: {}", words.torque, step.torque->text);
-  return lines + "\n" + requestOf(step, text, typed_);
+  return lines + "\n" + requestOf(step, text, typed_, words);
+}
+
+std::string LiveProcedure::requestAtEnd() const {
+  const procedure::Words& words = procedure::wordsIn(options_.language);
+  return session_ ? fmt::format("{}, {}", words.pressSignOff, words.pressBack)
+                  : std::string(words.pressBack);
 }
 
 StepShown LiveProcedure::shown() const {
@@ -568,11 +566,11 @@ StepShown LiveProcedure::shown() const {
     return shown;
   }
   if (stepper().isFinished()) {
-    shown.request = session_ ? "Enter: sign off, Page Up: back" : "Page Up: back";
+    shown.request = requestAtEnd();
     return shown;
   }
   const procedure::StepText& text = shown.procedure->text(shown.step, options_.language);
-  shown.request = requestOf(stepper().step(), text, typed_);
+  shown.request = requestOf(stepper().step(), text, typed_, procedure::wordsIn(options_.language));
   return shown;
 }
 

@@ -87,6 +87,7 @@ class LiveProcedure {
  private:
   void begin(std::shared_ptr<const procedure::Procedure> procedure);
   const procedure::Stepper& stepper() const;
+  std::string requestAtEnd() const;
   bool isSignedOff() const { return session_ && session_->record().isSignedOff(); }
   bool pressForStep(const hal::KeyPressed& key);
   bool pressForValue(const hal::KeyPressed& key);

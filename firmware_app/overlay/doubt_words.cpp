@@ -1,22 +1,24 @@
 #include "firmware_app/overlay/doubt_words.h"
 
+#include "pipeline/procedure/words.h"
+
 namespace pleinair::app {
 
-std::string wordsOf(overlay::Doubt doubt, std::string_view language) {
-  const bool isGerman = language.starts_with("de");
+std::string_view wordsOf(overlay::Doubt doubt, std::string_view language) {
+  const procedure::Words& words = procedure::wordsIn(language);
   switch (doubt) {
     case overlay::Doubt::kNone:
       return {};
     case overlay::Doubt::kNotSeen:
-      return isGerman ? "Kein Tag der Maschine im Bild" : "No tag of the machine in view";
+      return words.noTag;
     case overlay::Doubt::kCarried:
-      return isGerman ? "Tag verdeckt" : "The tag is covered";
+      return words.tagCovered;
     case overlay::Doubt::kUncertain:
-      return isGerman ? "Lage zu ungenau: näher herangehen" : "Place too uncertain: move closer";
+      return words.moveCloser;
     case overlay::Doubt::kOutOfView:
-      return isGerman ? "Teil nicht im Bild" : "The part is not in view";
+      return words.notInView;
     case overlay::Doubt::kOtherMachine:
-      return isGerman ? "Tag einer anderen Maschine" : "Tag of another machine";
+      return words.otherTag;
   }
   return {};
 }

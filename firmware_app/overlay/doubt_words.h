@@ -1,14 +1,13 @@
 #pragma once
 
-#include <string>
 #include <string_view>
 
 #include "pipeline/overlay/overlay_content.h"
 
 namespace pleinair::app {
 
-/// Why nothing is shown on the machine, in English or German by the language's first part; English
-/// for others. Empty for kNone.
-std::string wordsOf(overlay::Doubt doubt, std::string_view language);
+/// Why nothing is shown on the machine, in a language as procedure::wordsIn() has it. Empty for
+/// kNone.
+std::string_view wordsOf(overlay::Doubt doubt, std::string_view language);
 
 }  // namespace pleinair::app

@@ -29,12 +29,17 @@ constexpr std::uint8_t kGroundAlpha = 226;
 
 /// Sizes for an output of this width.
 struct Measures {
-  explicit Measures(int width) : scale(std::clamp(width / 640.0, 0.55, 6.0)) {}
+  explicit Measures(int width, double share = 1.0)
+      : scale(share * std::clamp(width / 640.0, 0.55, 6.0)) {}
   double scale;
   int px(double atUsualWidth) const {
     return std::max(1, static_cast<int>(atUsualWidth * scale + 0.5));
   }
 };
+
+int mostHeight(hal::FrameSize output) {
+  return 2 * output.height / 5;
+}
 
 // Safety colours of ISO 3864-4 and ANSI Z535.1: red, orange, yellow, blue.
 std::pair<Rgb, Rgb> inkAndGroundOf(procedure::WarningLevel level) {
@@ -112,7 +117,7 @@ Column mainColumn(const StepShown& shown, int x, int width, const Measures& m) {
   const Procedure& procedure = *shown.procedure;
   const procedure::Words& words = procedure::wordsIn(shown.language);
   if (shown.step == procedure::kEnd) {
-    column.add(std::string(words.end), m.px(21), kWhite, "Sans Bold");
+    column.add(std::string(words.theEnd), m.px(21), kWhite, "Sans Bold");
     return column;
   }
   const procedure::StepText& text = procedure.text(shown.step, shown.language);
@@ -147,11 +152,14 @@ Column sideColumn(const StepShown& shown, int x, int width, const Measures& m) {
   return column;
 }
 
-}  // namespace
+/// A panel, and how high it would be with all of its text.
+struct Panel {
+  hal::Image image;
+  int wholeHeight = 0;
+};
 
-hal::Image instructionPanel(const StepShown& shown, const std::filesystem::path& folder,
-                            hal::FrameSize output) {
-  const Measures m(output.width);
+Panel panelOf(const StepShown& shown, const std::filesystem::path& folder, hal::FrameSize output,
+              const Measures& m) {
   const Procedure& procedure = *shown.procedure;
   const procedure::Words& words = procedure::wordsIn(shown.language);
   const bool isEnd = shown.step == procedure::kEnd;
@@ -194,7 +202,8 @@ hal::Image instructionPanel(const StepShown& shown, const std::filesystem::path&
 
   const int body = std::max({text.height(m), side.height(m), numberInk.size().height + m.px(8),
                              picture ? picture->size().height : 0});
-  const int height = std::min(barsHeight + body + 2 * margin, 2 * output.height / 5);
+  const int wholeHeight = barsHeight + body + 2 * margin;
+  const int height = std::min(wholeHeight, mostHeight(output));
   Card card({output.width, height});
   card.fill({0, 0, output.width, height}, kGround, kGroundAlpha);
   int y = 0;
@@ -213,7 +222,19 @@ hal::Image instructionPanel(const StepShown& shown, const std::filesystem::path&
   drawColumn(card, text, top, m);
   if (picture) card.paste(*picture, sideX - pictureWidth, top);
   drawColumn(card, side, top, m);
-  return card.take();
+  return {card.take(), wholeHeight};
+}
+
+}  // namespace
+
+hal::Image instructionPanel(const StepShown& shown, const std::filesystem::path& folder,
+                            hal::FrameSize output) {
+  Panel panel;
+  for (const double share : {1.0, 0.9, 0.8, 0.7}) {  // a long text in smaller letters
+    panel = panelOf(shown, folder, output, Measures(output.width, share));
+    if (panel.wholeHeight <= mostHeight(output)) break;
+  }
+  return std::move(panel.image);
 }
 
 hal::Image stepMarker(const std::string& number, const std::string& text, int outputWidth) {

@@ -9,8 +9,9 @@
 namespace pleinair::app {
 
 /// The instruction of a step as a strip as wide as the output: warnings, number and title, text,
-/// picture, tools, torque, and what is asked for. Not higher than two fifths of the output: the
-/// text is cut there. Any thread; all as OverlayContent has its pictures.
+/// picture, tools, torque, and what is asked for. Not higher than two fifths of the output: a
+/// long text is set in smaller letters, by up to 30 %, and then cut. Any thread; all as
+/// OverlayContent has its pictures.
 hal::Image instructionPanel(const StepShown& shown, const std::filesystem::path& folder,
                             hal::FrameSize output);
 /// The number of a step, and a short text beside it.

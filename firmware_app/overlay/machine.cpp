@@ -1,6 +1,7 @@
 #include "firmware_app/overlay/machine.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <variant>
 #include <vector>
@@ -55,11 +56,42 @@ std::size_t machineIn(const scene::Scene& scene, const procedure::Procedure& pro
 
 void putMachine(scene::Scene& scene, std::size_t machine, const procedure::Procedure& procedure) {
   scene::SceneModel& place = scene.models.at(machine);
+  if (std::abs(place.unitMetres / procedure.unitMetres - 1.0) > 1e-6) {
+    throw hal::Failure(
+        {.kind = hal::ErrorKind::kInvalidArgument,
+         .subject = "model " + config::quoted(place.name),
+         .problem = fmt::format("has a unit of {:g} m in the scene, and of {:g} m in the procedure",
+                                place.unitMetres, procedure.unitMetres),
+         .remedy = "the same units in both"});
+  }
   auto model = std::make_shared<scene::Model>(*procedure.model);
   for (scene::ModelPart& part : model->parts) part.radiansPerSecond = 0.0;
   place.model = std::move(model);
   place.source = procedure.source;
   place.playback = {};
+}
+
+PartSurface surfaceOfParts(const scene::Model& model, std::span<const std::size_t> parts) {
+  scene::Model chosen = model;
+  chosen.parts.clear();
+  for (const std::size_t part : parts) chosen.parts.push_back(model.parts[part]);
+  scene::numberParts(chosen);
+  PartSurface surface{.sphere = scene::boundingSphere(chosen), .triangles = {}};
+  for (std::size_t number = 0; number < chosen.parts.size(); ++number) {
+    const scene::ModelPart& part = chosen.parts[number];
+    for (std::size_t i = 0; i < part.surfaceCount; ++i) {
+      const scene::Mesh& mesh = chosen.surfaces[part.firstSurface + i].mesh;
+      for (const auto& triangle : mesh.triangles) {
+        auto& corners =
+            surface.triangles.emplace_back(inspection::PartTriangle{.part = number}).corners;
+        for (std::size_t c = 0; c < corners.size(); ++c) {
+          const glm::dvec3 at(mesh.vertices[triangle.at(c)].position);
+          corners.at(c) = glm::dvec3(part.modelFromPart * glm::dvec4(at, 1.0));
+        }
+      }
+    }
+  }
+  return surface;
 }
 
 }  // namespace pleinair::app

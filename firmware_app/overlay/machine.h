@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
+#include <vector>
 
+#include "pipeline/inspection/part_window.h"
 #include "pipeline/procedure/procedure.h"
 #include "pipeline/scene/description/scene.h"
 
@@ -15,7 +18,15 @@ std::size_t machineIn(const scene::Scene& scene, const procedure::Procedure& pro
                       const std::string& name);
 
 /// The scene says where a machine stands, the procedure what it is made of: puts the procedure's
-/// model in the place of that of the scene. Parts stand still, as on a machine under repair.
+/// model in the place of that of the scene. Parts stand still, as on a machine under repair. Throws
+/// hal::Failure where both have other units.
 void putMachine(scene::Scene& scene, std::size_t machine, const procedure::Procedure& procedure);
+
+/// Parts of a model at rest, in its frame.
+struct PartSurface {
+  scene::BoundingSphere sphere;
+  std::vector<inspection::PartTriangle> triangles;  ///< parts are numbered as asked for
+};
+PartSurface surfaceOfParts(const scene::Model& model, std::span<const std::size_t> parts);
 
 }  // namespace pleinair::app

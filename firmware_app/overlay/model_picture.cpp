@@ -12,6 +12,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "firmware_app/overlay/card.h"
+#include "firmware_app/procedure/step_arrows.h"
 #include "firmware_app/procedure/step_view.h"
 #include "pipeline/overlay/reserved_colours.h"
 
@@ -168,7 +169,8 @@ glm::vec3 colourOf(const Shown& shown, bool hidesFocus, int x, int y) {
 }  // namespace
 
 hal::Image modelPicture(const scene::Model& model, std::span<const PartLook> looks,
-                        std::span<const overlay::Ghost> together, hal::FrameSize size) {
+                        std::span<const overlay::Ghost> together,
+                        std::span<const overlay::Arrow> arrows, hal::FrameSize size) {
   std::vector<Layer> layers(model.parts.size(), Layer::kAround);
   for (std::size_t i = 0; i < looks.size(); ++i) {
     if (looks[i] == PartLook::kHidden) layers[i] = Layer::kLeftOut;
@@ -207,6 +209,7 @@ hal::Image modelPicture(const scene::Model& model, std::span<const PartLook> loo
       }
     }
   }
+  drawArrows(picture, arrows, model, camera, stepCamera(size), size.width / 330.0);
   card.paste(picture, 0, 0);
   card.border({0, 0, size.width, size.height}, std::max(1, size.width / 100),
               overlay::kReservedRgb);

@@ -11,9 +11,10 @@ namespace pleinair::app {
 /// A model drawn by the processor: parts in focus in the reserved colour, hatched where others hide
 /// them, the others pale; from the side that shows most of them. RGBA8, opaque, with a frame.
 /// `looks`: per part; hidden ones are left out. `together`: parts that are drawn in focus although
-/// they are off (ghosts). Parts are at rest; skins and morph targets are not looked at. Some 0.1 s
-/// for 60,000 triangles. Any thread.
+/// they are off (ghosts). `arrows` are drawn over it. Parts are at rest; skins and morph targets
+/// are not looked at. Some 0.1 s for 60,000 triangles. Any thread.
 hal::Image modelPicture(const scene::Model& model, std::span<const overlay::PartLook> looks,
-                        std::span<const overlay::Ghost> together, hal::FrameSize size);
+                        std::span<const overlay::Ghost> together,
+                        std::span<const overlay::Arrow> arrows, hal::FrameSize size);
 
 }  // namespace pleinair::app

@@ -11,16 +11,20 @@
 #include "hal/error.h"
 #include "pipeline/procedure/procedure_file.h"
 #include "pipeline/procedure/stepper.h"
+#include "pipeline/procedure/words.h"
 
 namespace pleinair::app {
 namespace {
 
 using procedure::Procedure;
 
-/// The question of a step's check, with its limits.
+/// What a step's check asks for, with its limits.
 std::string questionOf(const Procedure& procedure, std::size_t index, const std::string& language) {
   const procedure::Step& step = procedure.steps[index];
   if (!step.check) return {};
+  const procedure::Words& words = procedure::wordsIn(language);
+  if (step.check->kind == procedure::CheckKind::kPhoto) return std::string(words.photo);
+  if (step.check->kind == procedure::CheckKind::kCompare) return std::string(words.comparison);
   std::string text = procedure.text(index, language).question;
   if (step.check->kind == procedure::CheckKind::kValue) {
     text += ": " + procedure::limitsText(*step.check);

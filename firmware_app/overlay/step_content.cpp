@@ -10,6 +10,7 @@
 #include "firmware_app/overlay/doubt_words.h"
 #include "firmware_app/overlay/instruction_panel.h"
 #include "firmware_app/overlay/model_picture.h"
+#include "firmware_app/procedure/step_arrows.h"
 #include "pipeline/overlay/part_shape.h"
 
 namespace pleinair::app {
@@ -20,29 +21,7 @@ using overlay::OverlayContent;
 using overlay::PartLook;
 using procedure::Step;
 
-constexpr std::size_t kMostArrows = 12;
 constexpr double kInsetShare = 0.36;  // of the output's width
-
-std::optional<ArrowKind> arrowOf(const Step& step) {
-  switch (step.motion) {
-    case procedure::Motion::kDefault:
-      if (!step.removes.empty()) return ArrowKind::kPull;
-      return step.fits.empty() ? std::nullopt : std::optional(ArrowKind::kPush);
-    case procedure::Motion::kNone:
-      return std::nullopt;
-    case procedure::Motion::kPull:
-      return ArrowKind::kPull;
-    case procedure::Motion::kPush:
-      return ArrowKind::kPush;
-    case procedure::Motion::kTurn:
-      return ArrowKind::kTurn;
-    case procedure::Motion::kScrew:
-      return ArrowKind::kScrew;
-    case procedure::Motion::kUnscrew:
-      return ArrowKind::kUnscrew;
-  }
-  return std::nullopt;
-}
 
 PartLook lookOf(procedure::PartView view) {
   switch (view) {
@@ -95,33 +74,16 @@ void addParts(const StepShown& shown, const scene::Model& machine, OverlayConten
     if (view == procedure::PartView::kGhost) content.ghosts.push_back({.part = part});
   }
   for (const auto& [part, metres] : step.apart) {
-    content.ghosts.push_back({.part = part,
-                              .apartMetres = metres * overlay::shapeOf(machine, part).axis,
-                              .stays = true});
+    content.ghosts.push_back(
+        {.part = part,
+         .apartMetres = metres / shown.procedure->unitMetres * overlay::shapeOf(machine, part).axis,
+         .stays = true});
   }
   if (step.motion != procedure::Motion::kNone && step.apart.empty()) {
     addGhosts(machine, step.removes, false, content);
     addGhosts(machine, step.fits, true, content);
   }
-  const std::optional<ArrowKind> kind = arrowOf(step);
-  if (!kind) return;
-  const std::vector<std::size_t>& moved = !step.removes.empty() ? step.removes
-                                          : !step.fits.empty()  ? step.fits
-                                                                : step.parts;
-  const bool isAlong = *kind == ArrowKind::kPull || *kind == ArrowKind::kPush;
-  // Along one axis one arrow says it: that of the part that moves farthest out.
-  std::vector<glm::dvec3> axes;
-  for (const std::size_t part : moved) {
-    if (content.arrows.size() == kMostArrows) break;
-    const overlay::PartShape shape = overlay::shapeOf(machine, part);
-    const glm::dvec3 foot = shape.centre - glm::dot(shape.centre, shape.axis) * shape.axis;
-    const bool isKnown = std::ranges::any_of(axes, [&](const glm::dvec3& each) {
-      return glm::length(each - foot) < 0.5 * shape.radius + 1e-6;
-    });
-    if (isAlong && isKnown) continue;
-    axes.push_back(foot);
-    content.arrows.push_back({.kind = *kind, .part = part});
-  }
+  content.arrows = arrowsOf(step, machine);
 }
 
 void addLabel(const StepShown& shown, int width, OverlayContent& content) {
@@ -150,11 +112,12 @@ OverlayContent stepContent(const StepShown& shown, const scene::Model& machine,
   addLabel(shown, output.width, content);
   content.panel = instructionPanel(shown, folder, output);
   const int width = static_cast<int>(kInsetShare * output.width);
-  content.inset = inset != nullptr ? *inset
-                                   : modelPicture(machine, content.looks, content.ghosts,
-                                                  {width, std::max(1, 3 * width / 4)});
+  content.inset = inset != nullptr
+                      ? *inset
+                      : modelPicture(machine, content.looks, content.ghosts, content.arrows,
+                                     {width, std::max(1, 3 * width / 4)});
   for (std::size_t i = 0; i < overlay::kDoubts; ++i) {
-    const std::string text = wordsOf(static_cast<overlay::Doubt>(i), shown.language);
+    const std::string text(wordsOf(static_cast<overlay::Doubt>(i), shown.language));
     if (!text.empty()) content.badges.at(i) = doubtBadge(text, output.width);
   }
   return content;

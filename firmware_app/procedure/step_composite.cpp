@@ -7,11 +7,14 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "pipeline/overlay/reserved_colours.h"
+
 namespace pleinair::app {
 namespace {
 
-const cv::Vec3f kReserved(255, 130, 0);
-const cv::Vec3b kOutline(190, 50, 0);
+const cv::Vec3f kReserved(overlay::kReservedRgb[0], overlay::kReservedRgb[1],
+                          overlay::kReservedRgb[2]);
+const cv::Vec3b kOutline(overlay::kCasingRgb[0], overlay::kCasingRgb[1], overlay::kCasingRgb[2]);
 constexpr int kOutlinePx = 3;
 constexpr int kHatchPx = 12;  // from line to line
 

@@ -9,6 +9,7 @@
 
 #include <glm/trigonometric.hpp>
 
+#include "firmware_app/procedure/step_arrows.h"
 #include "firmware_app/procedure/step_composite.h"
 #include "firmware_app/procedure/step_view.h"
 #include "pipeline/gpu/egl_context.h"
@@ -25,11 +26,6 @@ namespace {
 constexpr hal::FrameSize kTrialSize{160, 120};
 constexpr int kContextTag = 0;
 constexpr int kFocusTag = 1;
-
-tracking::CameraModel cameraOf(hal::FrameSize size) {
-  const double f = 0.5 * size.height / std::tan(0.5 * glm::radians(kStepViewDeg));
-  return {{.fx = f, .fy = f, .cx = 0.5 * size.width, .cy = 0.5 * size.height}, {}, size};
-}
 
 gpu::Texture paperTexture(hal::FrameSize size) {
   gpu::Texture texture(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear);
@@ -89,7 +85,7 @@ struct StepPictures::Impl {
         scene::TagSighting{.id = kFocusTag, .cameraFromTag = cameraFromTag},
         scene::TagSighting{.id = kContextTag, .cameraFromTag = cameraFromTag}};
     const std::span<const scene::TagSighting> seen(sightings);
-    return drawing.renderer->compose(ground, cameraOf(ground.size()),
+    return drawing.renderer->compose(ground, stepCamera(ground.size()),
                                      {.tags = seen.first(withContext ? 2 : 1)}, ++drawing.sequence,
                                      hal::TimePoint{},
                                      {.surfaces = true, .shading = scene::Shading::kSmooth});
@@ -164,7 +160,10 @@ struct StepPictures::Impl {
     readback->submit(*frame.colour);
     hal::Image shaded;
     hal::orThrow(readback->wait(shaded));
-    return stepComposite(shaded, pixels);
+    hal::Image picture = stepComposite(shaded, pixels);
+    drawArrows(picture, arrowsOf(step, *procedure.model), *procedure.model, camera,
+               stepCamera(picture.size()), picture.size().width / 480.0);
+    return picture;
   }
 
   const procedure::Procedure& procedure;

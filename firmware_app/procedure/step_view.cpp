@@ -33,6 +33,11 @@ scene::Model withParts(const scene::Model& model, std::span<const std::size_t> p
   return chosen;
 }
 
+tracking::CameraModel stepCamera(hal::FrameSize size) {
+  const double f = 0.5 * size.height / std::tan(0.5 * glm::radians(kStepViewDeg));
+  return {{.fx = f, .fy = f, .cx = 0.5 * size.width, .cy = 0.5 * size.height}, {}, size};
+}
+
 glm::dmat4 cameraFromModel(const ViewAngles& view, const scene::BoundingSphere& focus,
                            const scene::BoundingSphere& whole) {
   constexpr double kFocusShare = 1.8;  // radii of the focus in half of the picture

@@ -8,6 +8,7 @@
 
 #include "pipeline/scene/models/mesh.h"
 #include "pipeline/scene/models/model.h"
+#include "pipeline/tracking/camera/camera_model.h"
 
 namespace pleinair::app {
 
@@ -26,6 +27,9 @@ scene::Model withParts(const scene::Model& model, std::span<const std::size_t> p
 
 /// Vertical field of view of the pictures.
 inline constexpr double kStepViewDeg = 30.0;
+
+/// The camera of a picture of this size.
+tracking::CameraModel stepCamera(hal::FrameSize size);
 
 /// Camera (OpenCV's frame: x right, y down, z ahead) from model, so that `focus` fills about a
 /// third of the picture's height, and at least a part of `whole` is seen around it.

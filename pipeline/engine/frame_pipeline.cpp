@@ -1,8 +1,10 @@
 #include "pipeline/engine/frame_pipeline.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <chrono>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -305,12 +307,17 @@ void FramePipeline::drawOverlay(const scene::ArFrame& frame,
                                 const tracking::TrackingResult& tracked) {
   const auto scope = timer_.measure("overlay");
   const std::optional<std::size_t> machine = overlay_->machine();
+  std::array<int, overlay::OtherMachine::kMostNeighbours> unknown{};
+  std::size_t count = 0;
+  for (const tracking::TrackedTag& tag : tracked.tags) {
+    if (count < unknown.size() && scene_.findTag(tag.id) == nullptr) unknown.at(count++) = tag.id;
+  }
   picture_ = &overlay_->draw({.painted = picture_,
                               .ar = &frame,
                               .camera = &*fullCamera_,
                               .machine = machine ? renderer_.placeOf(*machine) : std::nullopt,
                               .isMachineSeen = isMachineSeen(tracked),
-                              .seesOtherMachine = tracked.counted.unknownTags > 0});
+                              .unknownTags = std::span(unknown).first(count)});
 }
 
 /// Luma for the trackers, if any is at work. Memory that a device shares may be uncached, where the

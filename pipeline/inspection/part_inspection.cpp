@@ -1,6 +1,7 @@
 #include "pipeline/inspection/part_inspection.h"
 
 #include <algorithm>
+#include <vector>
 
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
@@ -27,13 +28,14 @@ Verdict verdictOf(const StructureMatch& match) {
 }
 
 Inspection inspectPart(const PosedPicture& templatePicture, const PosedPicture& still,
-                       const glm::dvec3& centre, double radiusMetres) {
-  const double viewDeg =
-      glm::degrees(viewAngleRad(centre, templatePicture.cameraFromModel, still.cameraFromModel));
+                       const InspectedPart& part) {
+  const double viewDeg = glm::degrees(
+      viewAngleRad(part.centre, templatePicture.cameraFromModel, still.cameraFromModel));
   if (viewDeg > kMaxViewDeg) {
     return uncertain(fmt::format("look from where the template was taken: {:.0f}° off", viewDeg));
   }
-  const PartWindow window = windowAbout(centre, radiusMetres, templatePicture.cameraFromModel);
+  const PartWindow window =
+      windowAbout(part.centre, part.radiusMetres, templatePicture.cameraFromModel);
   const WindowPicture expected = windowPicture(window, templatePicture);
   const WindowPicture seen = windowPicture(window, still);
   if (std::min(expected.shareInside, seen.shareInside) < kMinShareInside) {
@@ -42,7 +44,14 @@ Inspection inspectPart(const PosedPicture& templatePicture, const PosedPicture& 
   if (seen.halfPx < kMinHalfPx || seen.halfPx < 0.5 * expected.halfPx) {
     return uncertain("come closer");
   }
-  const StructureMatch match = matchStructure(expected.luma.view(), seen.luma.view());
+  StructureSearch search{
+      .reliefPx = reliefShiftPx(window, templatePicture.cameraFromModel, still.cameraFromModel)};
+  std::vector<ReliefPixel> relief;
+  if (!part.triangles.empty()) {
+    relief = windowRelief(window, templatePicture.cameraFromModel, part.triangles);
+    search.relief = relief;
+  }
+  const StructureMatch match = matchStructure(expected.luma.view(), seen.luma.view(), search);
   Inspection inspection{.verdict = verdictOf(match), .reason = {}, .match = match};
   if (match.structured < kMinStructured) {
     inspection.verdict = Verdict::kUncertain;

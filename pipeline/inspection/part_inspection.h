@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include <glm/vec3.hpp>
@@ -21,17 +22,25 @@ struct Inspection {
 };
 
 /// Where verdicts change; decision 0065 says how they were chosen.
-inline constexpr double kPassMean = 0.90;
-inline constexpr double kPassWorst = 0.40;
-inline constexpr double kFailMean = 0.84;
-inline constexpr double kFailWorst = 0.30;
+inline constexpr double kPassMean = 0.84;
+inline constexpr double kPassWorst = 0.70;
+inline constexpr double kFailMean = 0.72;
+inline constexpr double kFailWorst = 0.40;
 
 /// The verdict of a match alone.
 Verdict verdictOf(const StructureMatch& match);
 
-/// Compares a still with a template about a part: a sphere in the machine's frame. Uncertain where
+/// What is inspected: parts of a machine, in its frame.
+struct InspectedPart {
+  glm::dvec3 centre{0.0};  ///< of a sphere around them
+  double radiusMetres = 0.0;
+  /// Their surface: only edges there count. Empty: all edges in the sphere.
+  std::span<const PartTriangle> triangles;
+};
+
+/// Compares a still with a template about a part. Uncertain where
 /// the still was taken from another side, from too far, shows only a piece of the part, or is dark.
 Inspection inspectPart(const PosedPicture& templatePicture, const PosedPicture& still,
-                       const glm::dvec3& centre, double radiusMetres);
+                       const InspectedPart& part);
 
 }  // namespace pleinair::inspection

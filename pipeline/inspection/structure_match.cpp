@@ -1,11 +1,20 @@
 #include "pipeline/inspection/structure_match.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
+#include <map>
+#include <numeric>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -15,22 +24,26 @@ namespace {
 constexpr int kBlockPx = 20;
 constexpr int kStridePx = 10;
 constexpr int kCoarseShiftPx = 8;  ///< of the whole picture: errors of the pose
-constexpr int kFineShiftPx = 3;    ///< of a block: relief seen from another place
-constexpr double kSmoothPx = 1.5;
-/// Sobel's answer on the logarithm of the luma, from which on a pixel is on an edge: 1.5 % a pixel,
+/// Of a block, beside what relief does: smoothed edges agree within a pixel or two.
+constexpr int kSlackPx = 0;
+constexpr double kSmoothPx = 2.2;
+/// Sobel's answer on the logarithm of the luma, from which on a pixel is on an edge: 1.1 % a pixel,
 /// above a sensor's noise. In the second picture weaker ones count.
-constexpr double kEdge = 0.12;
-constexpr double kSeenEdge = 0.08;
+constexpr double kEdge = 0.09;
+constexpr double kSeenEdge = 0.04;
 /// Pixels on edges that a block needs, of its 400.
 constexpr double kMinEdgePx = 24.0;
 
-cv::Mat matrixOf(const hal::ImageView& image) {
+cv::Mat bytesOf(const hal::ImageView& image) {
   const hal::PlaneView& plane = image.planes[0];
-  const cv::Mat bytes(image.format.size.height, image.format.size.width, CV_8UC1,
-                      const_cast<std::uint8_t*>(plane.bytes.data()),  // NOLINT(*-const-cast): read
-                      plane.strideBytes);
+  return {image.format.size.height, image.format.size.width, CV_8UC1,
+          const_cast<std::uint8_t*>(plane.bytes.data()),  // NOLINT(*-const-cast): read
+          plane.strideBytes};
+}
+
+cv::Mat matrixOf(const hal::ImageView& image) {
   cv::Mat matrix;
-  bytes.convertTo(matrix, CV_32F);
+  bytesOf(image).convertTo(matrix, CV_32F);
   cv::GaussianBlur(matrix, matrix, {}, kSmoothPx);
   return matrix;
 }
@@ -55,6 +68,67 @@ cv::Mat edgeDirections(const cv::Mat& luma, double threshold) {
   return directions;
 }
 
+/// Where nothing of the relief is, nor within a few pixels: an outline's edge has a width.
+cv::Mat placesBeside(std::span<const ReliefPixel> relief, const cv::Size& size) {
+  constexpr int kAroundPx = 9;
+  cv::Mat isThere(size, CV_8UC1, cv::Scalar(0));
+  for (std::size_t i = 0; i < relief.size(); ++i) {
+    if (!std::isnan(relief[i].height)) isThere.data[i] = 255;
+  }
+  cv::dilate(isThere, isThere,
+             cv::getStructuringElement(cv::MORPH_ELLIPSE, {kAroundPx, kAroundPx}));
+  return isThere == 0;
+}
+
+/// The least, mean and largest height; zeros where it is unknown.
+std::array<double, 3> heightsOf(std::span<const ReliefPixel> relief) {
+  std::array<double, 3> heights{HUGE_VAL, 0.0, -HUGE_VAL};
+  int count = 0;
+  for (const ReliefPixel& each : relief) {
+    if (std::isnan(each.height)) continue;
+    heights[0] = std::min<double>(heights[0], each.height);
+    heights[1] += each.height;
+    heights[2] = std::max<double>(heights[2], each.height);
+    ++count;
+  }
+  if (count == 0) return {};
+  heights[1] /= count;
+  return heights;
+}
+
+/// What of the relief is in a block.
+struct BlockRelief {
+  double least = 0.0;  ///< height
+  double most = 0.0;
+  std::size_t part = 0;  ///< that has most of it
+};
+
+/// The relief in a block, or near it where there is none in it; heights of -1 and 1 where it is
+/// unknown.
+BlockRelief reliefIn(std::span<const ReliefPixel> relief, int columns, const cv::Rect& block) {
+  if (relief.empty()) return {.least = -1.0, .most = 1.0};
+  const int rows = static_cast<int>(relief.size()) / columns;
+  for (const int around : {0, 5}) {
+    BlockRelief found{.least = HUGE_VAL, .most = -HUGE_VAL};
+    std::map<std::size_t, int> counts;
+    for (int y = std::max(0, block.y - around); y < std::min(rows, block.br().y + around); ++y) {
+      for (int x = std::max(0, block.x - around); x < std::min(columns, block.br().x + around);
+           ++x) {
+        const ReliefPixel& px = relief[static_cast<std::size_t>(y * columns + x)];
+        if (std::isnan(px.height)) continue;
+        found.least = std::min<double>(found.least, px.height);
+        found.most = std::max<double>(found.most, px.height);
+        ++counts[px.part];
+      }
+    }
+    if (counts.empty()) continue;
+    found.part =
+        std::ranges::max_element(counts, {}, [](const auto& each) { return each.second; })->first;
+    return found;
+  }
+  return {};
+}
+
 /// Pixels on edges: each has a direction of length 1.
 double edgePixels(const cv::Mat& directions) {
   return cv::norm(directions, cv::NORM_L2SQR);
@@ -65,35 +139,57 @@ struct Found {
   cv::Point shift;
 };
 
-/// The best agreement of a block's edges with those of `seen` at places up to `shift` px around:
-/// the mean cosine between their directions. Nothing where these places are beside the picture, or
-/// the block has too few edges.
+/// Shifts that are tried: within `slack` of those between two.
+struct Shifts {
+  glm::dvec2 from{0.0};
+  glm::dvec2 to{0.0};
+  int slack = 0;
+
+  bool holds(const cv::Point& shift) const {
+    const glm::dvec2 way = to - from;
+    const glm::dvec2 off = glm::dvec2(shift.x, shift.y) - from;
+    const double squared = glm::dot(way, way);
+    const double t = squared > 0.0 ? std::clamp(glm::dot(off, way) / squared, 0.0, 1.0) : 0.0;
+    return glm::length(off - t * way) <= slack + 0.5;
+  }
+};
+
+/// The best agreement of a block's edges with those of `seen` at shifted places: the mean cosine
+/// between their directions. Nothing where these places are beside the picture, or the block has
+/// too few edges.
 std::optional<Found> find(const cv::Mat& expected, const cv::Mat& seen, const cv::Rect& block,
-                          cv::Point around, int shift) {
+                          const Shifts& shifts) {
   const double edges = edgePixels(expected(block));
   if (edges < kMinEdgePx) return std::nullopt;
-  const cv::Rect wanted(block.x + around.x - shift, block.y + around.y - shift,
-                        block.width + 2 * shift, block.height + 2 * shift);
+  const glm::dvec2 least = glm::floor(glm::min(shifts.from, shifts.to)) - double(shifts.slack);
+  const glm::dvec2 most = glm::ceil(glm::max(shifts.from, shifts.to)) + double(shifts.slack);
+  const cv::Rect wanted(block.x + static_cast<int>(least.x), block.y + static_cast<int>(least.y),
+                        block.width + static_cast<int>(most.x - least.x),
+                        block.height + static_cast<int>(most.y - least.y));
   const cv::Rect region = wanted & cv::Rect({0, 0}, seen.size());
   if (region.width < block.width || region.height < block.height) return std::nullopt;
   cv::Mat sums;
   cv::matchTemplate(seen(region), expected(block), sums, cv::TM_CCORR);
-  double best = 0.0;
-  cv::Point at;
-  cv::minMaxLoc(sums, nullptr, &best, nullptr, &at);
-  return Found{best / edges, region.tl() + at - block.tl()};
+  std::optional<Found> best;
+  for (int y = 0; y < sums.rows; ++y) {
+    for (int x = 0; x < sums.cols; ++x) {
+      const cv::Point shift = region.tl() + cv::Point(x, y) - block.tl();
+      const double agreement = sums.at<float>(y, x) / edges;
+      if (!shifts.holds(shift) || (best && agreement <= best->agreement)) continue;
+      best = Found{agreement, shift};
+    }
+  }
+  return best;
 }
 
 /// The agreement of the blocks, by rows; nothing where a block does not count.
 class BlockGrid {
  public:
-  BlockGrid(const cv::Mat& expected, const cv::Mat& seen)
+  /// `around`: the shift that heights do not explain.
+  BlockGrid(const cv::Mat& expected, const cv::Mat& seen, const StructureSearch& search,
+            const glm::dvec2& around)
       : across_((expected.cols - kBlockPx) / kStridePx + 1),
         down_((expected.rows - kBlockPx) / kStridePx + 1) {
-    const cv::Rect inner(kCoarseShiftPx, kCoarseShiftPx, expected.cols - 2 * kCoarseShiftPx,
-                         expected.rows - 2 * kCoarseShiftPx);
-    const auto whole = find(expected, seen, inner, {}, kCoarseShiftPx);
-    const cv::Point around = whole ? whole->shift : cv::Point();
     const double radius = 0.5 * std::min(expected.cols, expected.rows);
     for (int row = 0; row < down_; ++row) {
       for (int column = 0; column < across_; ++column) {
@@ -101,14 +197,20 @@ class BlockGrid {
         const double dx = block.x + 0.5 * kBlockPx - 0.5 * expected.cols;
         const double dy = block.y + 0.5 * kBlockPx - 0.5 * expected.rows;
         const bool counts = std::hypot(dx, dy) <= radius;
-        scores_.push_back(counts ? scoreOf(expected, seen, block, around) : std::nullopt);
+        const BlockRelief relief = reliefIn(search.relief, expected.cols, block);
+        const Shifts shifts{.from = around + relief.least * search.reliefPx,
+                            .to = around + relief.most * search.reliefPx,
+                            .slack = kSlackPx};
+        scores_.push_back(counts ? scoreOf(expected, seen, block, shifts) : std::nullopt);
+        if (!search.relief.empty() && scores_.back())
+          byPart_[relief.part].push_back(*scores_.back());
         counted_ += counts ? 1 : 0;
       }
     }
   }
 
   StructureMatch match() const {
-    StructureMatch match{.worst = 1.0};
+    StructureMatch match;
     int structured = 0;
     for (const auto& score : scores_) {
       if (!score) continue;
@@ -117,21 +219,34 @@ class BlockGrid {
     }
     match.mean /= std::max(structured, 1);
     match.structured = static_cast<double>(structured) / std::max(counted_, 1);
-    for (int row = 0; row < down_; ++row) {
-      for (int column = 0; column < across_; ++column) {
-        if (const auto around = neighbourhood(row, column)) {
-          match.worst = std::min(match.worst, *around);
-        }
-      }
-    }
+    match.worst = byPart_.empty() ? worstNeighbourhood() : worstPart();
     return match;
   }
 
  private:
   static std::optional<double> scoreOf(const cv::Mat& expected, const cv::Mat& seen,
-                                       const cv::Rect& block, cv::Point around) {
-    const auto found = find(expected, seen, block, around, kFineShiftPx);
+                                       const cv::Rect& block, const Shifts& shifts) {
+    const auto found = find(expected, seen, block, shifts);
     return found ? std::optional(found->agreement) : std::nullopt;
+  }
+
+  double worstPart() const {
+    double worst = 1.0;
+    for (const auto& [part, scores] : byPart_) {
+      const double sum = std::accumulate(scores.begin(), scores.end(), 0.0);
+      worst = std::min(worst, sum / static_cast<double>(scores.size()));
+    }
+    return worst;
+  }
+
+  double worstNeighbourhood() const {
+    double worst = 1.0;
+    for (int row = 0; row < down_; ++row) {
+      for (int column = 0; column < across_; ++column) {
+        if (const auto around = neighbourhood(row, column)) worst = std::min(worst, *around);
+      }
+    }
+    return worst;
   }
 
   /// The mean of the blocks around one, where enough of them count.
@@ -154,16 +269,40 @@ class BlockGrid {
   int down_;
   int counted_ = 0;
   std::vector<std::optional<double>> scores_;
+  std::map<std::size_t, std::vector<double>> byPart_;  // where there is relief
 };
+
+/// The match after the best shift of the whole. What shift the edges agree with depends on the
+/// height that most of them have, so that several are tried.
+StructureMatch bestMatch(const cv::Mat& expected, const cv::Mat& seen,
+                         const StructureSearch& search) {
+  const cv::Rect inner(kCoarseShiftPx, kCoarseShiftPx, expected.cols - 2 * kCoarseShiftPx,
+                       expected.rows - 2 * kCoarseShiftPx);
+  std::optional<StructureMatch> best;
+  for (const double height : heightsOf(search.relief)) {
+    const glm::dvec2 byHeight = height * search.reliefPx;
+    const auto whole =
+        find(expected, seen, inner, {.from = byHeight, .to = byHeight, .slack = kCoarseShiftPx});
+    const glm::dvec2 around =
+        whole ? glm::dvec2(whole->shift.x, whole->shift.y) - byHeight : glm::dvec2(0.0);
+    const StructureMatch match = BlockGrid(expected, seen, search, around).match();
+    if (!best || match.mean > best->mean) best = match;
+  }
+  return *best;
+}
 
 }  // namespace
 
-StructureMatch matchStructure(const hal::ImageView& expected, const hal::ImageView& seen) {
+StructureMatch matchStructure(const hal::ImageView& expected, const hal::ImageView& seen,
+                              const StructureSearch& search) {
   assert(expected.format.size == seen.format.size && expected.format.size.width >= 64);
   const cv::Mat first = matrixOf(expected);
   const cv::Mat second = matrixOf(seen);
-  StructureMatch match =
-      BlockGrid(edgeDirections(first, kEdge), edgeDirections(second, kSeenEdge)).match();
+  cv::Mat looked = edgeDirections(first, kEdge);
+  if (!search.relief.empty()) {
+    looked.setTo(cv::Scalar(0.0, 0.0), placesBeside(search.relief, looked.size()));
+  }
+  StructureMatch match = bestMatch(looked, edgeDirections(second, kSeenEdge), search);
   match.brightness = cv::mean(second)[0];
   return match;
 }

@@ -75,7 +75,7 @@ glm::dvec2 wayOut(const PxBox& box, const PxBox& from) {
 
 std::span<const PlacedLabel> LabelLayout::place(const LabelView& view,
                                                 std::span<const LabelTarget> targets) {
-  if (slots_.size() != targets.size()) {
+  if (slots_.size() != targets.size() || placed_.size() != targets.size()) {
     slots_.assign(targets.size(), {});
     placed_.assign(targets.size(), {});
   }

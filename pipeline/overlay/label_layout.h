@@ -55,7 +55,10 @@ class LabelLayout {
   /// Places the labels of a frame; valid until the next call. Another number of labels begins anew.
   std::span<const PlacedLabel> place(const LabelView& view, std::span<const LabelTarget> targets);
   /// Forgets where labels were: another step, a cut.
-  void reset() { slots_.clear(); }
+  void reset() {
+    slots_.clear();
+    placed_.clear();
+  }
 
  private:
   struct Slot {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -70,6 +71,22 @@ bool LineShapes::takesPlace(const glm::dvec2& px, double apartPx) {
 void LineShapes::addArrowOf(const Arrow& arrow, const PartShape& shape,
                             const glm::dmat4& cameraFromModel, const tracking::CameraModel& camera,
                             double pxScale, double phase) {
+  const std::size_t first = shapes_.size();
+  addShapesOf(arrow, shape, cameraFromModel, camera, pxScale, phase);
+  if (shapes_.size() == first || arrowBoxes_.size() == kMost) return;
+  std::optional<PxBox> box;
+  for (std::size_t i = first; i < shapes_.size(); ++i) {
+    const LineShape& each = shapes_[i];
+    PxBox one{glm::min(each.a, each.b), glm::max(each.a, each.b)};
+    if (each.isTriangle) one = boxAround(one, {glm::dvec2(each.c), glm::dvec2(each.c)});
+    box = box ? boxAround(*box, one) : one;
+  }
+  arrowBoxes_.push_back(box->grown(kHalfWidthPx * pxScale));
+}
+
+void LineShapes::addShapesOf(const Arrow& arrow, const PartShape& shape,
+                             const glm::dmat4& cameraFromModel, const tracking::CameraModel& camera,
+                             double pxScale, double phase) {
   const Eye eye{cameraFromModel, camera};
   const glm::dvec3 top = shape.centre + shape.halfLength * shape.axis;
   const std::optional<glm::dvec2> middle = eye.px(shape.centre);

@@ -30,8 +30,11 @@ class LineShapes {
   void clear() {
     shapes_.clear();
     arrowPlaces_.clear();
+    arrowBoxes_.clear();
   }
   std::span<const LineShape> all() const { return shapes_; }
+  /// Around each arrow that addArrowOf() has drawn.
+  std::span<const PxBox> arrowBoxes() const { return arrowBoxes_; }
   void addLine(const glm::dvec2& a, const glm::dvec2& b, double halfWidthPx);
   /// A line with a head at `to`.
   void addArrow(const glm::dvec2& from, const glm::dvec2& to, double halfWidthPx);
@@ -45,15 +48,19 @@ class LineShapes {
   LineShapes() {
     shapes_.reserve(kMost);
     arrowPlaces_.reserve(kMost);
+    arrowBoxes_.reserve(kMost);
   }
 
  private:
+  void addShapesOf(const Arrow& arrow, const PartShape& shape, const glm::dmat4& cameraFromModel,
+                   const tracking::CameraModel& camera, double pxScale, double phase);
   bool takesPlace(const glm::dvec2& px, double apartPx);
   void add(const LineShape& shape) {
     if (shapes_.size() < kMost) shapes_.push_back(shape);
   }
   std::vector<LineShape> shapes_;
   std::vector<glm::dvec2> arrowPlaces_;
+  std::vector<PxBox> arrowBoxes_;
 };
 
 }  // namespace pleinair::overlay

@@ -54,6 +54,7 @@ OverlayRenderer::OverlayRenderer(const gpu::ShaderLibrary& library, const scene:
 }
 
 void OverlayRenderer::reset() {
+  other_.reset();
   trust_.reset();
   layout_.reset();
   panelBadSince_.reset();
@@ -75,7 +76,7 @@ bool OverlayRenderer::take(const std::shared_ptr<const OverlayContent>& content)
   labelSprites_.clear();
   for (const Label& label : content_->labels) labelSprites_.emplace_back(label.picture);
   targets_.resize(labelSprites_.size());
-  keepClear_.reserve(2);
+  keepClear_.reserve(3 + content_->arrows.size());
   if (machine_) takeLooks();
   if (isSameStep) return true;  // another text: a digit that was typed
   if (machine_) figures_.take(model(), *content_);
@@ -107,6 +108,7 @@ void OverlayRenderer::takeLooks() {
 void OverlayRenderer::findBoxes(const OverlayFrame& frame) {
   std::ranges::fill(boxes_, std::nullopt);
   marked_.reset();
+  ghosts_.reset();
   if (!frame.machine) return;
   const glm::dmat4& cameraFromModel = frame.machine->cameraFromBody;
   const auto take = [&](std::size_t part, const glm::dvec3& apart) {
@@ -119,16 +121,17 @@ void OverlayRenderer::findBoxes(const OverlayFrame& frame) {
     for (glm::dvec3& corner : shape.corners) corner += apart;
     if (const auto away = boxOf(shape, cameraFromModel, *frame.camera)) {
       marked_ = boxAround(*marked_, *away);
+      ghosts_ = ghosts_ ? boxAround(*ghosts_, *away) : *away;
     }
   };
   for (const std::size_t part : focus_) take(part, glm::dvec3(0.0));
   for (const Ghost& ghost : content_->ghosts) take(ghost.part, ghost.apartMetres);
 }
 
-PoseEvidence OverlayRenderer::evidenceOf(const OverlayFrame& frame) const {
+PoseEvidence OverlayRenderer::evidenceOf(const OverlayFrame& frame, bool seesOtherMachine) const {
   PoseEvidence evidence{.hasPose = frame.machine.has_value(),
                         .isSeen = frame.isMachineSeen,
-                        .seesOtherMachine = frame.seesOtherMachine,
+                        .seesOtherMachine = seesOtherMachine,
                         .partPx = HUGE_VAL,
                         .pxScale = pxScale_};
   if (!frame.machine) return evidence;
@@ -209,7 +212,8 @@ const gpu::Texture& OverlayRenderer::draw(const OverlayFrame& frame) {
   if (!began_) began_ = now;
   if (machine_) {
     findBoxes(frame);
-    const PoseEvidence evidence = evidenceOf(frame);
+    const bool seesOther = other_.update(frame.unknownTags, frame.isMachineSeen, now);
+    const PoseEvidence evidence = evidenceOf(frame, seesOther);
     state_ = {.trust = trust_.update(evidence, now), .predictedErrorPx = evidence.errorPx};
     judgeSize(evidence);
   } else {
@@ -233,6 +237,7 @@ const gpu::Texture& OverlayRenderer::draw(const OverlayFrame& frame) {
 }
 
 void OverlayRenderer::drawMarks(const OverlayFrame& frame) {
+  lines_.clear();
   if (!marked_) return;
   const glm::dvec2 whole(size_.width, size_.height);
   struct Area {
@@ -265,7 +270,6 @@ void OverlayRenderer::drawMarks(const OverlayFrame& frame) {
       .set("opacity", state_.trust.opacity)
       .set("lineScale", lineScale_)
       .drawArea(target_, area.low, area.size);
-  lines_.clear();
   const double phase = phaseAt(frame.ar->captureTime);
   for (const Arrow& arrow : content_->arrows) {
     lines_.addArrowOf(arrow, shapes_[arrow.part], frame.machine->cameraFromBody, *frame.camera,
@@ -301,6 +305,8 @@ void OverlayRenderer::drawLabels(const OverlayFrame& frame) {
     const glm::dvec2 corner(insetPlace());
     keepClear_.push_back({corner, corner + sizeOf(inset_)});
   }
+  for (const PxBox& each : lines_.arrowBoxes()) keepClear_.push_back(each);
+  if (ghosts_) keepClear_.push_back(*ghosts_);
   placed_ = layout_.place({.camera = frame.camera,
                            .cameraFromModel = cameraFromModel,
                            .keepClear = keepClear_,

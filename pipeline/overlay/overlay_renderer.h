@@ -18,6 +18,7 @@
 #include "pipeline/overlay/figure_drawer.h"
 #include "pipeline/overlay/label_layout.h"
 #include "pipeline/overlay/line_shapes.h"
+#include "pipeline/overlay/other_machine.h"
 #include "pipeline/overlay/overlay_content.h"
 #include "pipeline/overlay/overlay_drawing.h"
 #include "pipeline/overlay/part_shape.h"
@@ -36,7 +37,7 @@ struct OverlayFrame {
   const tracking::CameraModel* camera = nullptr;  ///< of pictures of the output's size
   std::optional<scene::Body::Moment> machine;     ///< nothing: its pose is unknown
   bool isMachineSeen = false;                     ///< a tag of it, in this frame
-  bool seesOtherMachine = false;
+  std::span<const int> unknownTags;               ///< ids in this frame that the scene has not
 };
 
 /// What became of the overlay in a frame.
@@ -78,7 +79,7 @@ class OverlayRenderer {
   const scene::Model& model() const { return *scene_.models[*machine_].model; }
   void takeLooks();
   void findBoxes(const OverlayFrame& frame);
-  PoseEvidence evidenceOf(const OverlayFrame& frame) const;
+  PoseEvidence evidenceOf(const OverlayFrame& frame, bool seesOtherMachine) const;
   void judgeSize(const PoseEvidence& evidence);
   void placePanel(hal::TimePoint now);
   glm::ivec2 insetPlace() const;
@@ -99,6 +100,7 @@ class OverlayRenderer {
   LineShapes lines_;
   LineShapes leaders_;
   LabelLayout layout_;
+  OtherMachine other_;
   PoseTrust trust_;
   OverlayState state_;
 
@@ -114,6 +116,7 @@ class OverlayRenderer {
   Sprite panel_, inset_;
   std::array<Sprite, kDoubts> badges_;
   std::optional<PxBox> marked_;  // around all that is marked, in this frame
+  std::optional<PxBox> ghosts_;  // where they go to, or come from
   float lineScale_ = 1.0F;       // of outlines: thinner around small parts
   bool isSmall_ = false;         // the parts are hard to make out
   bool isPanelBelow_ = true;

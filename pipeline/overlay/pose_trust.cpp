@@ -21,8 +21,9 @@ constexpr double kShareOfPart = 0.15;
 /// From this share of the limit on the overlay fades.
 constexpr double kFadesFrom = 0.75;
 
-constexpr hal::Duration kCarriedFor = 450ms;
-constexpr hal::Duration kFadesIn = 200ms;
+/// As long as tracking carries a pose; its predicted error grows meanwhile.
+constexpr hal::Duration kCarriedFor = 500ms;
+constexpr hal::Duration kFadesIn = 100ms;
 /// A pose that is lost for a frame or two does not bring the inset.
 constexpr hal::Duration kStandsInAfter = 350ms;
 

@@ -129,6 +129,7 @@ struct Procedure {
   std::vector<Step> steps;  ///< at least one; the first is where it begins
   scene::ModelSource source;
   std::shared_ptr<const scene::Model> model;
+  double unitMetres = 1.0;  ///< of the model's lengths
   /// Files of the folder that it was read from, relative to it, sorted.
   std::vector<std::string> files;
   /// SHA-256 over names and contents of `files`, in hexadecimal; empty if it came from no folder.

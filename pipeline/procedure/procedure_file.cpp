@@ -85,6 +85,9 @@ class ProcedureReader {
   void readModel(const TomlTable& table) {
     Procedure& procedure = reading_.procedure;
     procedure.source = scene::readSource(table, sources_.folder());
+    if (const auto* file = std::get_if<scene::FileSource>(&procedure.source)) {
+      procedure.unitMetres = scene::readFileUnits(table, *file);
+    }
     auto model = sources_.model(procedure.source);
     if (!model) {
       const hal::Error& error = model.error();

@@ -49,6 +49,7 @@ struct ProcedureReading {
 ///     languages = ["en", "de"]       # each has its texts in LANGUAGE.md
 ///     [model]
 ///     source = "machine.glb"         # or a built-in model, with its keys as in a scene file
+///     units = "mm"                   # of a file that is not in metres; STL and OBJ need it
 ///     [tools]
 ///     hex_5 = { en = "5 mm hex key", de = "Innensechskant 5 mm" }
 ///     [warnings]

@@ -92,7 +92,7 @@ std::string titleOf(const NodeGroup& group) {
 }  // namespace
 
 Skeleton skeletonOf(const scene::Model& model, const std::string& name, const std::string& source,
-                    std::span<const std::string> languages) {
+                    const std::string& units, std::span<const std::string> languages) {
   assert(!languages.empty());
   const auto inQuotes = [](const std::string& text) {
     return config::tomlString(text).value_or("\"\"");
@@ -105,6 +105,7 @@ Skeleton skeletonOf(const scene::Model& model, const std::string& name, const st
       "# each removes or fits, and delete those that nobody needs.\n"
       "name = {}\nversion = \"0.1\"\nlanguages = [{}]\n\n[model]\nsource = {}\n",
       inQuotes(name), fmt::join(tags, ", "), inQuotes(source));
+  if (!units.empty()) skeleton.toml += fmt::format("units = {}\n", inQuotes(units));
   for (const std::string& each : languages) skeleton.texts[each] = "# " + name + "\n";
   std::set<std::string> used;
   for (const NodeGroup& group : groupsOf(model)) {

@@ -18,8 +18,9 @@ struct Skeleton {
 };
 
 /// A step for each node of the model, in its order; numbered ones (bolt_1, bolt_2 …) share a step.
-/// `source`: what [model] names. Precondition: at least one language.
+/// `source`: what [model] names; `units`: of its lengths, empty: not said. Precondition: at least
+/// one language.
 Skeleton skeletonOf(const scene::Model& model, const std::string& name, const std::string& source,
-                    std::span<const std::string> languages);
+                    const std::string& units, std::span<const std::string> languages);
 
 }  // namespace pleinair::procedure

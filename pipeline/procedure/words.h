@@ -1,20 +1,28 @@
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "pipeline/procedure/procedure.h"
 
 namespace pleinair::procedure {
 
-/// Words that stand beside a procedure's own texts.
+/// Words of the program that stand beside a procedure's own texts.
 struct Words {
-  std::string_view step, tools, torque, check, end, photo, comparison;
+  std::string_view language;  ///< "de"
+  std::string_view step, tools, torque, check, end, theEnd, photo, comparison;
   std::string_view yes, no, ok, low, high, pass, fail, uncertain, done;
   std::string_view danger, warning, caution, notice;
+  // What is asked for, with the keys.
+  std::string_view pressDone, pressPhoto, pressValue, pressCompare, pressSignOff, pressBack;
+  // Why nothing is shown on the machine.
+  std::string_view noTag, tagCovered, moveCloser, notInView, otherTag;
 };
 
-/// In English or German by the language's first part ("de-AT"); English for others.
+/// In the language's first part ("de-AT": "de") where the program has it, else in English.
 const Words& wordsIn(std::string_view language);
+/// All that the program has, English first.
+std::span<const Words> allWords();
 
 std::string_view wordOf(const Words& words, Outcome outcome);
 /// The signal word of a warning, in capitals.

@@ -196,22 +196,26 @@ ModelSource readSource(const config::TomlTable& table, const std::filesystem::pa
   return readBox(table);
 }
 
-glm::dmat4 readFileFrame(const config::TomlTable& table, const FileSource& file) {
+double readFileUnits(const config::TomlTable& table, const FileSource& file) {
   static constexpr std::array<config::Choice<double>, 4> kUnits{
       {{"m", 1.0}, {"mm", 0.001}, {"cm", 0.01}, {"in", 0.0254}}};
-  enum class Up { kY, kZ };
-  static constexpr std::array<config::Choice<Up>, 2> kUps{{{"y", Up::kY}, {"z", Up::kZ}}};
-  const bool isMesh = isMeshFile(file.path);
-  std::optional<double> units = table.optionalChoice("units", kUnits);
-  if (!units && isMesh) {
+  const std::optional<double> units = table.optionalChoice("units", kUnits);
+  if (!units && isMeshFile(file.path)) {
     throw table.error("units", "is missing, and such files do not say theirs",
                       "\"mm\" (most CAD programs), \"cm\", \"m\" or \"in\"");
   }
+  return units.value_or(1.0);
+}
+
+glm::dmat4 readFileFrame(const config::TomlTable& table, const FileSource& file) {
+  enum class Up { kY, kZ };
+  static constexpr std::array<config::Choice<Up>, 2> kUps{{{"y", Up::kY}, {"z", Up::kZ}}};
+  const bool isMesh = isMeshFile(file.path);
   const Up own = isMesh && !hasMaterials(file.path) ? Up::kZ : Up::kY;
   const Up up = table.optionalChoice("up", kUps).value_or(own);
   // glTF is read with its y as z already.
   const Up asRead = isMesh ? Up::kZ : Up::kY;
-  glm::dmat4 frame(units.value_or(1.0));
+  glm::dmat4 frame(readFileUnits(table, file));
   frame[3][3] = 1.0;
   if (up == asRead) return frame;
   return glm::rotate(frame, glm::radians(up == Up::kY ? 90.0 : -90.0), glm::dvec3(1.0, 0.0, 0.0));

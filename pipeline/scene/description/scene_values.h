@@ -27,6 +27,10 @@ std::optional<glm::vec3> readColour(const config::TomlTable& table,
 /// Reads `source` and the keys that belong to it. File names are relative to `directory`.
 ModelSource readSource(const config::TomlTable& table, const std::filesystem::path& directory);
 
+/// Metres of a file's unit by the key `units` ("m", "mm", "cm", "in"), which STL and OBJ files
+/// need; 1 for others without it.
+double readFileUnits(const config::TomlTable& table, const FileSource& file);
+
 /// The transform from a model file's own axes and lengths to the model's frame, which is in metres
 /// with z up: of the keys `units` ("m", "mm", "cm", "in") and `up` ("y", "z"). STL and OBJ files,
 /// which do not say their units, need `units`; without `up`, STL is z up and OBJ y up. glTF is in

@@ -13,12 +13,15 @@ const std::filesystem::path kFolder =
     std::filesystem::path(PLEINAIR_TESTS_DIR).parent_path() / "config/procedures/gearbox";
 constexpr hal::FrameSize kSize{240, 180};
 
-/// The share of pixels in the colour that is reserved for instructions, in percent.
+/// The share of pixels in the colour that is reserved for instructions (overlay::kReservedRgb, with
+/// shading), in percent.
 double reservedPercent(const hal::Image& image) {
   int count = 0;
   for (int y = 0; y < image.size().height; ++y) {
     const auto row = image.view().row(0, y);
-    for (std::size_t i = 0; i + 2 < row.size(); i += 3) count += row[i] > row[i + 2] + 100 ? 1 : 0;
+    for (std::size_t i = 0; i + 2 < row.size(); i += 3) {
+      count += row[i] > 2 * row[i + 1] && row[i + 2] > 3 * row[i + 1] / 2 ? 1 : 0;
+    }
   }
   return 100.0 * count / (image.size().width * image.size().height);
 }

@@ -1,4 +1,4 @@
-// docs/everyday.md names the tests that hold what it says; a test that is renamed must not leave it
+// Some documents name the tests that hold what they say; a test that is renamed must not leave them
 // without proof.
 #include <filesystem>
 #include <fstream>
@@ -36,16 +36,26 @@ std::set<std::string> testNames() {
   return names;
 }
 
-TEST(TestNames, OfEverydayUseAreThoseOfTests) {
+/// Checks the names in a document; gives how many there are.
+int checkNamesIn(const char* document) {
   static const std::regex kNamed(R"(`(?:\w+/)?([A-Z]\w+\.(?:[A-Z]\w+|\*))(?:/\d+)?`)");
-  const std::string document = contentOf(kTestsFolder.parent_path() / "docs/everyday.md");
-  const std::set<std::string> known = testNames();
+  static const std::set<std::string> known = testNames();
+  const std::string text = contentOf(kTestsFolder.parent_path() / document);
   int count = 0;
-  for (std::sregex_iterator each(document.begin(), document.end(), kNamed), end; each != end;
+  for (std::sregex_iterator each(text.begin(), text.end(), kNamed), end; each != end;
        ++each, ++count) {
-    EXPECT_TRUE(known.contains((*each)[1].str())) << "there is no test " << (*each)[1].str();
+    EXPECT_TRUE(known.contains((*each)[1].str()))
+        << document << ": there is no test " << (*each)[1].str();
   }
-  EXPECT_GT(count, 60) << "the names are not found";
+  return count;
+}
+
+TEST(TestNames, OfEverydayUseAreThoseOfTests) {
+  EXPECT_GT(checkNamesIn("docs/everyday.md"), 60) << "the names are not found";
+}
+
+TEST(TestNames, OfTheRepairStationAreThoseOfTests) {
+  EXPECT_GT(checkNamesIn("docs/repair-station.md"), 25) << "the names are not found";
 }
 
 }  // namespace

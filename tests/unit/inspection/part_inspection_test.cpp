@@ -19,7 +19,7 @@ class PartInspectionTest : public testing::Test {
   Inspection inspect(const glm::dmat4& place, const hal::Image& still,
                      const glm::dvec3& centre = {}) const {
     return inspectPart({template_.view(), camera(), kFront}, {still.view(), camera(), place},
-                       centre, kRadius);
+                       {.centre = centre, .radiusMetres = kRadius});
   }
   /// In less light, with a sensor's noise.
   static hal::Image darker(hal::Image image, double gain) {

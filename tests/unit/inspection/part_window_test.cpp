@@ -43,5 +43,34 @@ TEST(PartWindow, KnowsTheAngleBetweenTwoViews) {
   EXPECT_NEAR(glm::degrees(viewAngleRad({}, lookingFrom(3), lookingFrom(-8, 30))), 11.0, 1e-6);
 }
 
+TEST(PartRelief, IsTheNearestSurfaceAndItsPart) {
+  const glm::dmat4 front = lookingFrom(0);
+  const PartWindow window = windowAbout({}, 0.05, front);
+  const auto square = [](double z, double half, std::size_t part) {
+    return PartTriangle{{{{-half, -half, z}, {3 * half, -half, z}, {-half, 3 * half, z}}}, part};
+  };
+  // The camera is at negative z.
+  const std::vector<PartTriangle> triangles{square(0.0, 0.04, 7), square(-0.02, 0.01, 8)};
+  const std::vector<ReliefPixel> relief = windowRelief(window, front, triangles);
+  const ReliefPixel& middle = relief[80 * kWindowPx + 80];
+  EXPECT_EQ(middle.part, 8);
+  EXPECT_NEAR(middle.height, 0.4, 1e-5);
+  const ReliefPixel& aside = relief[80 * kWindowPx + 50];
+  EXPECT_EQ(aside.part, 7);
+  EXPECT_NEAR(aside.height, 0.0, 1e-5);
+  EXPECT_TRUE(std::isnan(relief[80 * kWindowPx + 5].height)) << "beside both";
+}
+
+TEST(PartRelief, MovesAgainstTheCamera) {
+  const glm::dmat4 front = lookingFrom(0);
+  const PartWindow window = windowAbout({}, 0.05, front);
+  EXPECT_NEAR(glm::length(reliefShiftPx(window, front, front)), 0.0, 1e-9);
+  const glm::dvec2 shift = reliefShiftPx(window, front, lookingFrom(6));
+  // What a window's pixel shows of a point at that height, by the pictures' own mapping.
+  EXPECT_NEAR(glm::length(shift), 80.0 * std::tan(glm::radians(6.0)), 1.5);
+  EXPECT_NEAR(shift.y, 0.0, 1e-6);
+  EXPECT_NEAR(reliefShiftPx(window, front, lookingFrom(-6)).x, -shift.x, 1e-6);
+}
+
 }  // namespace
 }  // namespace pleinair::inspection

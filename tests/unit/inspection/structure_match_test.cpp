@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -62,6 +64,50 @@ TEST(StructureMatch, TheEdgeOfAShadowIsNotLookedFor) {
   const StructureMatch match = matchStructure(expected.view(), shaded.view());
   EXPECT_GT(match.mean, 0.85);
   EXPECT_GT(match.worst, 0.6);
+}
+
+/// A relief of two parts, side by side, at these heights.
+std::vector<ReliefPixel> twoParts(float left, float right) {
+  std::vector<ReliefPixel> relief;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const bool isRight = i % kSide >= kSide / 2;
+    relief.push_back(
+        {.height = isRight ? right : left, .part = static_cast<std::uint16_t>(isRight ? 1 : 0)});
+  }
+  return relief;
+}
+
+TEST(StructureMatch, OfSeveralPartsTheOneThatIsMissingIsTheWorst) {
+  const hal::Image expected = picture(texture);
+  const hal::Image half =
+      picture([](double x, double y) { return x >= kSide / 2.0 ? 120.0 : texture(x, y); });
+  const std::vector<ReliefPixel> relief = twoParts(0.0F, 0.0F);
+  const StructureMatch match = matchStructure(expected.view(), half.view(), {.relief = relief});
+  EXPECT_LT(match.worst, 0.3);
+  EXPECT_GT(match.mean, match.worst + 0.2);
+}
+
+TEST(StructureMatch, WhatIsBesideThePartsDoesNotCount) {
+  const hal::Image expected = picture(texture);
+  const hal::Image half =
+      picture([](double x, double y) { return x >= 0.6 * kSide ? 120.0 : texture(x, y); });
+  std::vector<ReliefPixel> relief = twoParts(0.0F, 0.0F);
+  for (ReliefPixel& each : relief) {
+    if (each.part == 1) each = {};
+  }
+  EXPECT_GT(matchStructure(expected.view(), half.view(), {.relief = relief}).worst, 0.95);
+}
+
+TEST(StructureMatch, ReliefMovesEdgesByItsHeightAndNoFarther) {
+  const hal::Image expected = picture(texture);
+  const auto movedRight = [&](double px) {
+    return picture(
+        [px](double x, double y) { return x < kSide / 2.0 ? texture(x, y) : texture(x - px, y); });
+  };
+  const std::vector<ReliefPixel> relief = twoParts(0.0F, 1.0F);
+  const StructureSearch search{.relief = relief, .reliefPx = {8.0, 0.0}};
+  EXPECT_GT(matchStructure(expected.view(), movedRight(8).view(), search).worst, 0.85);
+  EXPECT_LT(matchStructure(expected.view(), movedRight(0).view(), search).worst, 0.8);
 }
 
 }  // namespace

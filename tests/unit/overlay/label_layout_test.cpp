@@ -75,6 +75,14 @@ TEST_F(LabelLayoutTest, LiesBesidePartsPanelsAndOtherLabels) {
   }
 }
 
+TEST_F(LabelLayoutTest, AStepWithoutLabelsAfterOneThatHadThemHasNone) {
+  addPart({0.0, 0.0, 0.0});
+  EXPECT_EQ(place(ahead(0.7)).size(), 1U);
+  layout_.reset();
+  EXPECT_TRUE(
+      layout_.place({.camera = &camera_, .cameraFromModel = ahead(0.7), .time = now_}, {}).empty());
+}
+
 TEST_F(LabelLayoutTest, StaysOnItsPixelWhileThePoseTrembles) {
   addPart({0.0, 0.0, 0.0});
   addPart({0.08, 0.05, 0.0});

@@ -48,7 +48,7 @@ TEST_F(PoseTrustTest, GoesAtOnceAndComesBackSlowly) {
   EXPECT_EQ(after(33ms, {}).opacity, 0.0F);
   const float first = after(33ms, kGood).opacity;
   EXPECT_GT(first, 0.0F);
-  EXPECT_LT(first, 0.3F);
+  EXPECT_LT(first, 0.4F);
   EXPECT_EQ(during(300ms, kGood).opacity, 1.0F);
 }
 

@@ -183,6 +183,14 @@ TEST_F(StepContentTest, AStepThatIsNotThereIsRefused) {
   EXPECT_THROW(contentOf("drain", "fr"), hal::Failure);
 }
 
+TEST_F(StepContentTest, AMachineOfOtherUnitsIsRefused) {
+  procedure::Procedure procedure = procedure::loadProcedure(kFolder);
+  scene::Scene scene = gearboxScene();
+  EXPECT_NO_THROW(putMachine(scene, 1, procedure));
+  procedure.unitMetres = 0.001;
+  EXPECT_THROW(putMachine(scene, 1, procedure), hal::Failure);
+}
+
 TEST_F(StepContentTest, TheMachineIsFoundByNameOrSource) {
   const procedure::Procedure procedure = procedure::loadProcedure(kFolder);
   scene::Scene scene = gearboxScene();

@@ -30,7 +30,7 @@ const std::vector<std::string> kLanguages{"en", "pt-BR"};
 TEST(Skeleton, IsASoundProcedureWithAStepForEachNodeOrSeries) {
   const auto model = modelWithParts(
       {"Cover", "bolt_1", "bolt_2", "bolt_3", "end", "éé", "bolt_plate", "M8.001", "M8.002"});
-  const Skeleton skeleton = skeletonOf(*model, "my \"machine\"", "builtin:gearbox", kLanguages);
+  const Skeleton skeleton = skeletonOf(*model, "my \"machine\"", "builtin:gearbox", "", kLanguages);
   SkeletonSources sources(model, skeleton);
   const ProcedureReading reading = readProcedure(skeleton.toml, "p.toml", sources);
   EXPECT_EQ(messagesOf(reading), "") << skeleton.toml;
@@ -44,7 +44,7 @@ TEST(Skeleton, IsASoundProcedureWithAStepForEachNodeOrSeries) {
 
 TEST(Skeleton, OfTheGearbox) {
   const auto model = std::make_shared<const scene::Model>(scene::gearboxModel({.isClosed = true}));
-  const Skeleton skeleton = skeletonOf(*model, "gearbox", "builtin:gearbox", kLanguages);
+  const Skeleton skeleton = skeletonOf(*model, "gearbox", "builtin:gearbox", "", kLanguages);
   SkeletonSources sources(model, skeleton);
   EXPECT_EQ(messagesOf(readProcedure(skeleton.toml, "p.toml", sources)), "");
   EXPECT_THAT(skeleton.toml, HasSubstr("id = \"cover_bolt\"\nparts = [\"cover_bolt_*\"]"));
@@ -54,7 +54,8 @@ TEST(Skeleton, OfTheGearbox) {
 TEST(Skeleton, NodesBeyondTheLargestNumberOfStepsAreNamed) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < kMaxSteps + 3; ++i) names.push_back("a" + std::to_string(i) + "b");
-  const Skeleton skeleton = skeletonOf(*modelWithParts(names), "m", "builtin:gearbox", kLanguages);
+  const Skeleton skeleton =
+      skeletonOf(*modelWithParts(names), "m", "builtin:gearbox", "", kLanguages);
   EXPECT_EQ(skeleton.steps, kMaxSteps);
   EXPECT_EQ(skeleton.leftOut.size(), 3U);
 }

@@ -65,9 +65,9 @@ TEST(StepComposite, TellsPartsFromTheirSurroundings) {
   EXPECT_GT(context[0], 150) << "pale";
   EXPECT_EQ(context[0], context[2]) << "and grey";
   const auto focus = middleOf(StepPixel::kFocus);
-  EXPECT_GT(focus[0], focus[2] + 120) << "in the reserved colour";
+  EXPECT_GT(focus[0], focus[1] + 120) << "in the reserved colour";
   const auto hidden = middleOf(StepPixel::kFocusHidden);
-  EXPECT_GT(hidden[0], hidden[2] + 20);
+  EXPECT_GT(hidden[0], hidden[1] + 20);
   EXPECT_NE(hidden, focus);
 }
 

@@ -3,9 +3,11 @@
 #include <iterator>
 #include <memory>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "firmware_app/commands/procedure.h"
+#include "firmware_app/overlay/step_content.h"
 #include "hal/error.h"
 #include "pipeline/procedure/procedure_file.h"
 #include "pipeline/record/work_session.h"
@@ -64,6 +66,57 @@ TEST_F(ProcedureCommands, NewSaysWhatItCannotTake) {
               testing::HasSubstr("found \"English\""));
   EXPECT_NE(newError({.folder = made, .model = (folder_.path() / "none.glb").string()}), "");
   EXPECT_FALSE(fs::exists(made)) << "nothing is left behind";
+}
+
+TEST_F(ProcedureCommands, ANewProcedureOfAnStlHasItsUnits) {
+  const fs::path stl = folder_.path() / "bracket.stl";
+  std::ofstream(stl) << "solid bracket\n"
+                        "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 120 0 0\n"
+                        "vertex 0 80 40\nendloop\nendfacet\n"
+                        "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0 80 40\n"
+                        "vertex 0 80 0\nendloop\nendfacet\nendsolid bracket\n";
+  const fs::path made = folder_.path() / "mine";
+  EXPECT_THAT(newError({.folder = made, .model = stl.string()}), testing::HasSubstr("--units mm"));
+  EXPECT_FALSE(fs::exists(made));
+  EXPECT_EQ(newProcedure({.folder = made, .model = stl.string(), .units = "mm"}), 0);
+  EXPECT_EQ(checkProcedure({.folder = made}), 0) << "neither huge nor without units";
+  EXPECT_EQ(procedure::loadProcedure(made).unitMetres, 0.001);
+  EXPECT_THAT(
+      newError({.folder = folder_.path() / "other", .model = "builtin:gearbox", .units = "mm"}),
+      testing::HasSubstr("has no meaning"));
+}
+
+TEST_F(ProcedureCommands, AModelOfFiveHundredPartsIsTaken) {
+  const fs::path made = folder_.path() / "large";
+  fs::create_directories(made);
+  std::string nodes;
+  std::string roots;
+  for (int i = 0; i < 500; ++i) {
+    nodes += fmt::format(R"({}{{"name":"part_{}_a","mesh":0,"translation":[{},{},0]}})",
+                         i == 0 ? "" : ",", i, 0.02 * (i % 25), 0.02 * (i / 25));
+    roots += fmt::format("{}{}", i == 0 ? "" : ",", i);
+  }
+  // One triangle of 1 cm: nine numbers.
+  std::ofstream(made / "large.gltf") << fmt::format(
+      R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[{}]}}],"nodes":[{}],)"
+      R"("meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],)"
+      R"("accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",)"
+      R"("min":[0,0,0],"max":[0.01,0.01,0]}}],"bufferViews":[{{"buffer":0,"byteLength":36}}],)"
+      R"("buffers":[{{"byteLength":36,"uri":"data:application/octet-stream;base64,)"
+      R"(AAAAAAAAAAAAAAAACtcjPAAAAAAAAAAAAAAAAArXIzwAAAAA"}}]}})",
+      roots, nodes);
+  EXPECT_EQ(newProcedure({.folder = made, .model = (made / "large.gltf").string()}), 0);
+  const procedure::Procedure procedure = procedure::loadProcedure(made);
+  EXPECT_EQ(procedure.model->parts.size(), 500U);
+  EXPECT_EQ(procedure.steps.size(), 500U);
+  const overlay::OverlayContent content =
+      stepContent({.procedure = std::make_shared<const procedure::Procedure>(procedure),
+                   .step = 499,
+                   .language = "en"},
+                  *procedure.model, made, {640, 480});
+  EXPECT_EQ(content.looks.size(), 500U);
+  EXPECT_EQ(content.looks.back(), overlay::PartLook::kFocus);
+  EXPECT_GT(content.inset.size().width, 0);
 }
 
 TEST_F(ProcedureCommands, ARecordIsCheckedAndReported) {

@@ -1,0 +1,73 @@
+#include "firmware_app/overlay/instruction_panel.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "pipeline/procedure/procedure.h"
+
+namespace pleinair::app {
+namespace {
+
+class InstructionPanelTest : public testing::Test {
+ protected:
+  static hal::Image panelOf(const std::string& title, const std::string& body,
+                            hal::FrameSize output) {
+    procedure::Procedure procedure;
+    procedure.languages = {"de"};
+    procedure.steps.resize(1);
+    procedure.steps[0].id = "a";
+    procedure.steps[0].text["de"] = {.title = title, .body = body};
+    return instructionPanel({.procedure = std::make_shared<const procedure::Procedure>(procedure),
+                             .language = "de",
+                             .request = "Bild ab: fertig"},
+                            {}, output);
+  }
+  /// The rightmost column and the lowest row with bright ink.
+  struct Extent {
+    int right = 0;
+    int bottom = 0;
+  };
+  static Extent inkOf(const hal::Image& panel) {
+    Extent extent;
+    for (int y = 0; y < panel.size().height; ++y) {
+      const auto row = panel.view().row(0, y);
+      for (int x = 0; x < panel.size().width; ++x) {
+        if (row[4 * static_cast<std::size_t>(x) + 1] < 150) continue;
+        extent.right = std::max(extent.right, x);
+        extent.bottom = std::max(extent.bottom, y);
+      }
+    }
+    return extent;
+  }
+};
+
+TEST_F(InstructionPanelTest, LongWordsAndMixedDirectionsStayInside) {
+  const std::string word = "Zahnflankenspielmessuhrhalterungsbefestigungsschraubenanzugsmoment";
+  const std::string arabic = "افحص صمام الزيت قبل تشغيل المحرك";
+  for (const hal::FrameSize output : {hal::FrameSize{640, 480}, {1280, 720}, {320, 240}}) {
+    for (const std::string& body :
+         {word + word, arabic + " (Ölablassschraube M12) " + arabic, arabic + word}) {
+      const hal::Image panel = panelOf(word, body, output);
+      EXPECT_EQ(panel.size().width, output.width);
+      EXPECT_LE(panel.size().height, 2 * output.height / 5);
+      const Extent ink = inkOf(panel);
+      EXPECT_LT(ink.right, output.width - 4) << "beside the border";
+      EXPECT_GT(ink.bottom, panel.size().height / 3);
+      EXPECT_LT(ink.bottom, panel.size().height - 2) << "no line is cut in its middle";
+    }
+  }
+}
+
+TEST_F(InstructionPanelTest, ALongTextIsSetInSmallerLetters) {
+  std::string body;
+  for (int i = 0; i < 36; ++i) body += "Schraube lösen. ";
+  const hal::Image panel = panelOf("Lang", body, {640, 480});
+  EXPECT_LE(panel.size().height, 192);
+  EXPECT_LT(inkOf(panel).bottom, panel.size().height - 2) << "all of it is there";
+}
+
+}  // namespace
+}  // namespace pleinair::app
