@@ -52,6 +52,8 @@ struct OutputFormat {
   /// By how many right angles pictures are turned clockwise, for a display that hangs so. `frame`
   /// is their format when they have been turned.
   int quarterTurns = 0;
+  /// People see pictures with left and right exchanged: texts in them are exchanged beforehand.
+  bool isMirrored = false;
 };
 
 struct OutputIdentity {
@@ -85,6 +87,8 @@ class GpuSurfaceLender {
   /// A copy of what the buffer of one of them holds, RGBA8 of the picture's size, or of all the
   /// buffer. Waits for the GPU; slow. Errors: kUnsupported, kDeviceLost.
   virtual Result<Image> copyOfGpuSurface(SurfaceId surface, bool isWholeBuffer) = 0;
+  /// Nobody draws into them any more: what is not shown is freed, the rest as soon as it is not.
+  virtual void endLending() {}
 
  protected:
   GpuSurfaceLender() = default;

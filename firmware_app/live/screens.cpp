@@ -52,6 +52,7 @@ void Screens::update(const LiveProgress& progress) {
     const Drawn wanted{.text = waitingText(awaited, progress.camera, choice_),
                        .format = format.frame,
                        .quarterTurns = format.quarterTurns,
+                       .isMirrored = format.isMirrored,
                        .starts = status.starts};
     // A frame that was painted late may have taken the picture's place.
     const bool isReplaced = !status.isWaitingShown && !status.isWaitingDue;
@@ -90,8 +91,9 @@ void Screens::draw(Screen& screen, const Drawn& wanted) {
                                : hasLast ? kOfTheRunBefore
                                          : kNone;
   const hal::Image picture = pictures_.draw(upright, painting, number, wanted.text);
+  const hal::Image shown = present::turned(picture, wanted.quarterTurns);
   screen.picture =
-      std::make_shared<const hal::Image>(present::turned(picture, wanted.quarterTurns));
+      std::make_shared<const hal::Image>(wanted.isMirrored ? present::mirrored(shown) : shown);
 }
 
 void Screens::show(Screen& screen, bool fades) const {
@@ -124,7 +126,9 @@ std::optional<hal::Image> Screens::lastPainting() const {
 std::optional<hal::Image> Screens::uprightFrameOf(const runtime::OutputStage& stage) {
   const std::optional<hal::Image> frame = stage.lastFrame();
   if (!frame) return std::nullopt;
-  return present::turned(*frame, -stage.format().quarterTurns);
+  const hal::OutputFormat format = stage.format();
+  const hal::Image upright = present::turned(*frame, -format.quarterTurns);
+  return format.isMirrored ? present::mirrored(upright) : upright;
 }
 
 }  // namespace pleinair::app

@@ -52,6 +52,7 @@ class Screens {
     present::WaitingText text;
     hal::FrameFormat format;
     int quarterTurns = 0;
+    bool isMirrored = false;
     std::uint64_t starts = 0;  ///< of the output, which forgets its picture
     friend bool operator==(const Drawn&, const Drawn&) = default;
   };

@@ -29,7 +29,7 @@ bool isSameMachine(const scene::ModelSource& a, const scene::ModelSource& b) {
                       .subject = "procedure.machine",
                       .problem = std::move(problem),
                       .remedy = names.empty()
-                                    ? "a scene (--scene) that places the machine on its tags"
+                                    ? "give a scene (--scene) that places the machine on its tags"
                                     : "choose one of: " + config::listText(names)});
 }
 

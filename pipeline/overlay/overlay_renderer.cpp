@@ -136,7 +136,9 @@ PoseEvidence OverlayRenderer::evidenceOf(const OverlayFrame& frame, bool seesOth
                         .pxScale = pxScale_};
   if (!frame.machine) return evidence;
   const PxBox picture{glm::dvec2(0.0), glm::dvec2(size_.width, size_.height)};
-  evidence.isOutOfView = marked_ && !marked_->overlaps(picture);
+  // Parts with a corner behind the camera have no box.
+  const bool marksAny = !focus_.empty() || !content_->ghosts.empty();
+  evidence.isOutOfView = marksAny && (!marked_ || !marked_->overlaps(picture));
   const scene::Attachment& attachment = frame.machine->attachment;
   for (std::size_t part = 0; part < boxes_.size(); ++part) {
     if (!boxes_[part]) continue;

@@ -347,4 +347,14 @@ hal::Image turned(const hal::Image& picture, int quarterTurns) {
   return result;
 }
 
+hal::Image mirrored(const hal::Image& picture) {
+  assert(picture.format().pixelFormat == hal::PixelFormat::kRgba8);
+  hal::Image result(picture.format());
+  const cv::Mat from = matOf(picture.view());
+  cv::Mat to(from.rows, from.cols, CV_8UC4, result.plane(0).data());
+  constexpr int kAboutTheVertical = 1;
+  cv::flip(from, to, kAboutTheVertical);
+  return result;
+}
+
 }  // namespace pleinair::present

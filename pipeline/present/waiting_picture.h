@@ -39,5 +39,7 @@ class WaitingPictures {
 
 /// An RGBA8 picture, turned clockwise by right angles.
 hal::Image turned(const hal::Image& picture, int quarterTurns);
+/// An RGBA8 picture with left and right exchanged.
+hal::Image mirrored(const hal::Image& picture);
 
 }  // namespace pleinair::present

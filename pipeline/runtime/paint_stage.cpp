@@ -173,7 +173,8 @@ void PaintStage::followLoans() {
     if (!painter_) return;
     SurfaceLending& lending = output.stage->lending();
     const std::shared_ptr<const SurfaceLoan> loan = lending.toImport();
-    if (!loan) continue;
+    // Of a stream that the painter has not been opened for yet.
+    if (!loan || loan->surfaces.front().surface.format.size != output.format.frame.size) continue;
     const hal::Result<void> drawn = painter_->importLoan(output.id, *loan);
     if (!drawn && drawn.error().kind == hal::ErrorKind::kTimeout) continue;
     lending.imported(loan->number, drawn);

@@ -77,10 +77,13 @@ bool SurfaceLending::isCurrent(const hal::LentSurface& surface) const {
 hal::Result<void> SurfaceLending::step(hal::GpuSurfaceLender& lender, const std::string& name,
                                        std::size_t count, std::size_t comparisons) {
   State state{};
+  bool isToEnd = false;
   {
     const std::scoped_lock lock(mutex_);
     state = state_;
+    isToEnd = std::exchange(isToEnd_, false);
   }
+  if (isToEnd) lender.endLending();
   if (state == State::kOffered) return lend(lender, name, count);
   if (state == State::kDrawn) return compare(lender, comparisons);
   if (state == State::kInUse) return keepReady(lender);
@@ -90,6 +93,7 @@ hal::Result<void> SurfaceLending::step(hal::GpuSurfaceLender& lender, const std:
 /// Precondition: the mutex is held.
 void SurfaceLending::refuse(const hal::Error& error) {
   state_ = State::kRefused;
+  isToEnd_ = loan_ != nullptr;
   loan_.reset();
   ready_.clear();
   status_.path = ScanOut::Path::kCopied;

@@ -102,6 +102,7 @@ class SurfaceLending {
   const hal::Clock& clock_;
   mutable std::mutex mutex_;  // guards the members below
   State state_ = State::kIdle;
+  bool isToEnd_ = false;  // the lender does not know yet that its surfaces were refused
   DrawableLayouts layouts_;
   std::shared_ptr<const SurfaceLoan> loan_;
   std::uint64_t loans_ = 0;

@@ -49,6 +49,7 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
                                             std::size_t count) override;
   Result<std::optional<SurfaceId>> acquireForGpu() override;
   Result<Image> copyOfGpuSurface(SurfaceId surface, bool isWholeBuffer) override;
+  void endLending() override { pipe_->retireGpuBuffers(); }
   std::optional<TimePoint> nextEvent() const override { return flips_->nextEvent(); }
   const Suspension* suspension() const override { return suspension_ ? &*suspension_ : nullptr; }
   double brightness() const override { return dimmer_.level(clock_.now()); }
@@ -174,6 +175,7 @@ Result<void> DisplayOutput::finish() {
 
 Result<std::optional<Surface>> DisplayOutput::acquire() {
   if (const auto advanced = advance(); !advanced) return tl::unexpected(advanced.error());
+  pipe_->destroyRetired();
   if (suspension_) return std::nullopt;
   std::vector<DisplayBuffer>& buffers = pipe_->buffers();
   const auto free = std::ranges::find(buffers, State::kFree, &DisplayBuffer::state);

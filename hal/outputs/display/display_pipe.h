@@ -84,8 +84,9 @@ class DisplayPipe {
   /// plane takes too; the card has agreed to flip to them. Those before are retired. Precondition:
   /// setMode(). Errors: kUnsupported, kNoSpace, kDeviceLost; there are none then.
   Result<void> makeGpuBuffers(std::span<const std::uint64_t> modifiers, std::size_t count);
-  /// Those that are in use stay until they are free.
+  /// Those that are in use stay until destroyRetired() finds them free.
   void retireGpuBuffers();
+  void destroyRetired();
   /// Also the retired ones; their addresses last.
   const std::vector<std::unique_ptr<DisplayBuffer>>& gpuBuffers() const { return gpuBuffers_; }
   /// Where the picture lies in one of them.
@@ -102,7 +103,6 @@ class DisplayPipe {
  private:
   Result<void> makeBuffers();
   void destroyBuffers();
-  void destroyRetired();
   int tryToFlip(const DisplayBuffer& buffer);
   int flip(const DisplayBuffer& buffer, int syncFile, bool pans);
   Error noGpuBuffers(int error, std::string problem) const;

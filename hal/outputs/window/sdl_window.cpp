@@ -141,11 +141,15 @@ Error unacceptedSize() {
 Result<int> displayOf(const std::string& wanted) {
   if (wanted == "auto") return 0;
   std::string known;
+  // A name may hold digits, too: "2" is the second one, also beside a "DELL U2720Q".
+  const bool isNumber = std::ranges::all_of(wanted, [](char c) { return c >= '0' && c <= '9'; });
   const int count = SDL_GetNumVideoDisplays();
   for (int i = 0; i < count; ++i) {
     const char* const name = SDL_GetDisplayName(i);
     const std::string text = name == nullptr ? "" : name;
-    if (wanted == std::to_string(i + 1) || text.find(wanted) != std::string::npos) return i;
+    const bool isIt =
+        isNumber ? wanted == std::to_string(i + 1) : text.find(wanted) != std::string::npos;
+    if (isIt) return i;
     known += (known.empty() ? "" : ", ") + std::to_string(i + 1) + " (" + text + ")";
   }
   return tl::unexpected(Error{.kind = ErrorKind::kNotFound,
@@ -162,7 +166,8 @@ Result<OutputFormat> SdlWindow::start(const OutputRequest& request) {
   if (settings_.isFullScreen) setFullScreen(true);
   if (settings_.hidesCursor) SDL_ShowCursor(SDL_DISABLE);
   if (!settings_.takesKeys) SDL_SetWindowKeyboardGrab(window_.get(), SDL_TRUE);
-  return OutputFormat{.frame = format_, .refresh = refreshOf(window_.get())};
+  return OutputFormat{
+      .frame = format_, .refresh = refreshOf(window_.get()), .isMirrored = settings_.isMirrored};
 }
 
 Result<OutputFormat> SdlWindow::reconfigure(const OutputRequest& request) {
@@ -183,7 +188,8 @@ Result<OutputFormat> SdlWindow::reconfigure(const OutputRequest& request) {
     SDL_SetWindowSize(window_.get(), size.width, size.height);
     SDL_SetWindowPosition(window_.get(), centred, centred);
   }
-  return OutputFormat{.frame = format_, .refresh = refreshOf(window_.get())};
+  return OutputFormat{
+      .frame = format_, .refresh = refreshOf(window_.get()), .isMirrored = settings_.isMirrored};
 }
 
 Result<void> SdlWindow::open(FrameSize picture) {

@@ -132,6 +132,8 @@ TEST(Turned, TurnsClockwiseByRightAngles) {
   EXPECT_EQ(turned(picture, 3).view().row(0, 2)[0], 9);
   EXPECT_EQ(turned(picture, -1).view().row(0, 2)[0], 9);
   EXPECT_EQ(turned(turned(picture, 1), -1).view().row(0, 0)[0], 9);
+  EXPECT_EQ(mirrored(picture).view().row(0, 0)[8], 9);
+  EXPECT_EQ(mirrored(picture).size(), picture.size());
 }
 
 TEST(WaitingPictures, AreThoseDrawnOneByOne) {

@@ -36,6 +36,7 @@ struct Desktop {
   bool garblesTextures = false;
   std::vector<std::uint32_t> shown;  ///< first pixel of each picture, 0x00RRGGBB
   int windows = 0;
+  int endings = 0;  ///< of lending
 };
 
 /// A memory output that lends textures, whose memory stands behind descriptors here.
@@ -93,6 +94,7 @@ class TexturedWindow final : public hal::MemoryOutput, public hal::GpuSurfaceLen
     }
     return lent;
   }
+  void endLending() override { ++desktop_.endings; }
   hal::Result<std::optional<hal::SurfaceId>> acquireForGpu() override {
     if (desktop_.isGone) return tl::unexpected(gone());
     for (std::size_t i = 0; i < textures_.size(); ++i) {
@@ -250,6 +252,7 @@ TEST_F(WindowTextures, AreNotUsedWhereThePatternArrivesWrong) {
   desktop_.garblesTextures = true;
   begin();
   expectOnlyCopies("arrives wrong");
+  EXPECT_EQ(desktop_.endings, 1) << "its memory is freed";
 }
 
 TEST_F(WindowTextures, AServerThatDiesIsALossOfTheWindowAlone) {

@@ -187,6 +187,19 @@ TEST_F(GpuSurfaces, LeaveNothingBehindWhereTheSecondHasNoMemory) {
   EXPECT_EQ(cards_.shown.back().firstPixel, kPainted);
 }
 
+TEST_F(GpuSurfaces, AreFreedOnceNobodyDrawsIntoThem) {
+  plug(gpuCard());
+  ASSERT_TRUE(start());
+  lend();
+  ASSERT_TRUE(showDrawn());
+  EXPECT_EQ(cards_.gpuBuffers, static_cast<int>(kCount));
+  output_->endLending();
+  EXPECT_EQ(cards_.gpuBuffers, 1) << "the one that is shown";
+  ASSERT_TRUE(showAndWait());
+  ASSERT_TRUE(showAndWait());
+  EXPECT_EQ(cards_.gpuBuffers, 0);
+}
+
 TEST_F(GpuSurfaces, EndWithTheCardThatTheyAreLentBy) {
   FakeCardSpec& spec = plug(gpuCard());
   ASSERT_TRUE(start());
