@@ -497,7 +497,7 @@ void LiveProcedure::putStill(const hal::Result<hal::Image>& still,
 fs::file_time_type LiveProcedure::newestFile() const {
   fs::file_time_type newest = fs::file_time_type::min();
   std::error_code failure;
-  for (fs::directory_iterator at(options_.folder, failure), end; !failure && at != end;
+  for (fs::recursive_directory_iterator at(options_.folder, failure), end; !failure && at != end;
        at.increment(failure)) {
     std::error_code ignored;
     newest = std::max(newest, fs::last_write_time(at->path(), ignored));
