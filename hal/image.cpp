@@ -24,7 +24,8 @@ bool ImageView::isComplete() const {
     const PlaneView& view = planes[index(plane)];
     const std::size_t row = rowBytes(format.pixelFormat, plane, format.size.width);
     const std::size_t rows = index(planeRows(format.pixelFormat, plane, format.size.height));
-    if (view.strideBytes < row || view.bytes.size() < view.strideBytes * (rows - 1) + row) {
+    if (view.strideBytes < row || (rows > 1 && view.strideBytes > view.bytes.size()) ||
+        view.bytes.size() < view.strideBytes * (rows - 1) + row) {
       return false;
     }
   }

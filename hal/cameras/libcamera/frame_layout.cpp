@@ -109,10 +109,11 @@ std::optional<std::array<PlaneView, 3>> planesIn(const BufferMemory& memory,
         layout.swappedBytes > 0
             ? static_cast<std::size_t>(layout.swappedBytes) * static_cast<std::size_t>(size.width)
             : rowBytes(layout.pixelFormat, i, size.width);
-    if (row > stride || rows == 0) return std::nullopt;
-    const std::size_t needed = stride * (rows - 1) + row;
     const std::span<const std::uint8_t> bytes =
         memory.planes.at(isSeparate ? static_cast<std::size_t>(i) : 0);
+    // Beyond the memory, products would overflow.
+    if (row > stride || rows == 0 || stride > bytes.size()) return std::nullopt;
+    const std::size_t needed = stride * (rows - 1) + row;
     const std::size_t begin = isSeparate ? 0 : offset;
     if (begin > bytes.size() || needed > bytes.size() - begin) return std::nullopt;
     planes.at(static_cast<std::size_t>(i)) = {.bytes = bytes.subspan(begin, needed),

@@ -9,6 +9,7 @@ DECIDED = ("imported", "uploaded")
 
 def run(guest):
     live.load_drivers(guest)
+    live.control(guest, osd_text_mode=2)  # no text over the bars
     guest.run("modprobe vgem; until [ -e /dev/dri/card0 ]; do sleep 0.1; done; udevadm settle")
     check_memory(guest)
     for layout in ("NV12", "YUYV"):

@@ -28,6 +28,9 @@ TEST(ImageView, KnowsWhenAPlaneIsTooShort) {
   EXPECT_FALSE(view.isComplete());
   view.planes[0].strideBytes = 2;
   EXPECT_FALSE(view.isComplete());
+  view.format.size.height = 3;  // two strides overflow to 0
+  view.planes[0].strideBytes = std::size_t{1} << 63;
+  EXPECT_FALSE(view.isComplete());
 }
 
 TEST(Image, HasItsLumaWhereTheFormatHoldsIt) {

@@ -73,6 +73,8 @@ TEST(PlanesIn, RefusesBuffersThatAreTooSmall) {
   EXPECT_FALSE(planesIn(memoryOf({bytes}), *findLayout(kI420), {4, 2}, 8));
   EXPECT_FALSE(planesIn(memoryOf({bytes}), *findLayout(kI420), {4, 2}, 3)) << "a stride too short";
   EXPECT_FALSE(planesIn(BufferMemory{}, *findLayout(kNv12), {4, 2}, 4));
+  // Of three rows, two strides overflow to 0.
+  EXPECT_FALSE(planesIn(memoryOf({bytes}), *findLayout(kNv12), {4, 3}, std::size_t{1} << 63));
 }
 
 TEST(SwapToRgb, ExchangesRedAndBlueOfEveryRow) {
