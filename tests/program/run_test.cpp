@@ -350,17 +350,23 @@ TEST_F(RunInWindow, DrawsIntoTheWindowWhatACopyShows) {
 
 TEST_F(RunInWindow, GoesOnWithTheMovieWhereTheXServerDies) {
   writeMedia(path("in.y4m"), 10, kSize);
-  const ProgramRun live = runShown({"--camera", path("in.y4m"), "--output", "window", "--output",
-                                    path("out.mp4"), "--style", "none", "--frames", "60"},
-                                   [&](pid_t) {
-                                     waitForTitle("none.*");
-                                     server_->kill();
-                                   });
-  EXPECT_THAT(live.error, HasSubstr("window: the display server is gone"));
-  EXPECT_EQ(live.status, 1) << live.error;
-  const auto played = play(path("out.mp4"));
-  ASSERT_TRUE(played);
-  EXPECT_EQ(played->frames.size(), 60U);
+  for (const std::string way : {"copied", "direct"}) {
+    SCOPED_TRACE(way);
+    server_.emplace(kScreen);
+    const ProgramRun live =
+        runShown({"--camera", path("in.y4m"), "--output", "window", "--output", path("out.mp4"),
+                  "--set", "output.window.scan_out=" + way, "--style", "none", "--frames", "90"},
+                 [&](pid_t) {
+                   waitForTitle("none.*");
+                   std::this_thread::sleep_for(1500ms);  // paintings go into its textures by then
+                   server_->kill();
+                 });
+    EXPECT_THAT(live.error, HasSubstr("window: the display server is gone"));
+    EXPECT_EQ(live.status, 1) << live.error;
+    const auto played = play(path("out.mp4"));
+    ASSERT_TRUE(played);
+    EXPECT_EQ(played->frames.size(), 90U);
+  }
 }
 
 TEST_F(RunInWindow, FillsTheScreenWithoutAWindowManager) {

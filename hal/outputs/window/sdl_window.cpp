@@ -103,6 +103,7 @@ class SdlWindow final : public Window, public GpuSurfaceLender {
     return settings_.quarterTurns % 2 == 0 ? size : FrameSize{size.height, size.width};
   }
   Result<void> draw();
+  Result<void> present();
   /// Fills the screen without a window manager, or goes back to the place before.
   void fillScreen(bool on);
   /// The size of the drawable, which on dense screens has more pixels than the window has units.
@@ -327,6 +328,15 @@ Result<void> SdlWindow::redraw() {
   assert(isStarted());
   if (display_connection::isLost()) return tl::unexpected(displayLost());
   if (Result<void> drawn = draw(); !drawn) return drawn;
+  return present();
+}
+
+/// What was drawn. Mesa's software does not return from a swap whose connection is known to be
+/// broken (it sends the picture in parts of the greatest length of a request, which is then 0). So
+/// all that it might find out by comes before the look at the connection.
+Result<void> SdlWindow::present() {
+  SDL_RenderFlush(renderer_.get());
+  if (display_connection::isLost()) return tl::unexpected(displayLost());
   SDL_RenderPresent(renderer_.get());
   if (display_connection::isLost()) return tl::unexpected(displayLost());
   lent_.drawn();
@@ -350,7 +360,7 @@ Result<Image> SdlWindow::shown() {
                            3 * image.size().width) != 0) {
     return tl::unexpected(failure(ErrorKind::kDeviceLost, "cannot read what it shows"));
   }
-  SDL_RenderPresent(renderer_.get());
+  if (Result<void> presented = present(); !presented) return tl::unexpected(presented.error());
   return image;
 }
 
