@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kHalfWidthPx = 2.5;
 constexpr double kLeastLengthPx = 30.0;
+constexpr double kMostLengthPx = 70.0;
 constexpr double kLeastRadiusPx = 12.0;
 constexpr double kNearestMetres = 0.01;
 
@@ -133,7 +134,16 @@ void LineShapes::addShapesOf(const Arrow& arrow, const PartShape& shape,
   const double toBorder =
       std::min(half.x / std::max(std::abs(way.x), 1e-6), half.y / std::max(std::abs(way.y), 1e-6));
   const glm::dvec2 inner = box->centre() + (toBorder + 5.0 * pxScale) * way;
-  const glm::dvec2 outer = inner + std::max(seen, kLeastLengthPx * pxScale) * way;
+  // Not out of the picture.
+  const glm::dvec2 size(camera.imageSize().width, camera.imageSize().height);
+  double length = std::clamp(seen, kLeastLengthPx * pxScale, kMostLengthPx * pxScale);
+  for (int i = 0; i < 2; ++i) {
+    if (std::abs(way[i]) < 1e-6) continue;
+    const double room = (way[i] > 0.0 ? size[i] - inner[i] : inner[i]) - 6.0 * pxScale;
+    length = std::min(length, room / std::abs(way[i]));
+  }
+  length = std::max(length, 0.5 * kLeastLengthPx * pxScale);
+  const glm::dvec2 outer = inner + length * way;
   if (arrow.kind == ArrowKind::kPull) {
     addArrow(inner, outer, 1.3 * kHalfWidthPx * pxScale);
   } else {

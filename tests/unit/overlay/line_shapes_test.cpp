@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -65,6 +66,20 @@ TEST(LineShapes, PullingGoesOutAlongTheAxisAndPushingIn) {
   };
   EXPECT_GT(headOf(ArrowKind::kPull).x, headOf(ArrowKind::kPush).x + 20.0);
   EXPECT_GT(headOf(ArrowKind::kPush).x, 320.0 + 560.0 * 0.004 / 0.4) << "beside the part";
+}
+
+TEST(LineShapes, AnArrowStaysInThePicture) {
+  PartShape sideways = disc();
+  sideways.axis = {1.0, 0.0, 0.0};
+  sideways.side = {0.0, 1.0, 0.0};
+  sideways.halfLength = 0.2;  // a long one, whose arrow would be long, too
+  LineShapes shapes;
+  const glm::dmat4 right = glm::translate(ahead(0.4), glm::dvec3(0.17, 0.0, 0.0));
+  shapes.addArrowOf({.kind = ArrowKind::kPull}, sideways, right, testCamera(), 1.0, 0.0);
+  ASSERT_EQ(shapes.all().size(), 2U);
+  EXPECT_LT(shapes.all().back().a.x, 640.0F);
+  ASSERT_EQ(shapes.arrowBoxes().size(), 1U);
+  EXPECT_GT(shapes.arrowBoxes()[0].size().x, 15.0);
 }
 
 TEST(LineShapes, AnArrowTowardsTheViewerLiesBesideThePart) {

@@ -1,12 +1,17 @@
 // Views, composites and tiles of steps, on the processor.
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
+#include "firmware_app/procedure/step_arrows.h"
 #include "firmware_app/procedure/step_composite.h"
 #include "firmware_app/procedure/step_tile.h"
 #include "firmware_app/procedure/step_view.h"
+#include "pipeline/overlay/reserved_colours.h"
+#include "pipeline/procedure/procedure_file.h"
 #include "pipeline/scene/builtin/builtin_gearbox.h"
 #include "tests/unit/procedure/procedure_texts.h"
 
@@ -69,6 +74,29 @@ TEST(StepComposite, TellsPartsFromTheirSurroundings) {
   const auto hidden = middleOf(StepPixel::kFocusHidden);
   EXPECT_GT(hidden[0], hidden[1] + 20);
   EXPECT_NE(hidden, focus);
+}
+
+TEST(StepArrows, AStepThatMovesPartsHasArrowsInItsPicture) {
+  const procedure::Procedure procedure = procedure::loadProcedure(
+      std::filesystem::path(PLEINAIR_TESTS_DIR).parent_path() / "config/procedures/gearbox");
+  const scene::Model& model = *procedure.model;
+  const auto shownOf = [&](const char* id) {
+    const procedure::Step& step = procedure.steps[*procedure.findStep(id)];
+    hal::Image image({.pixelFormat = hal::PixelFormat::kRgb8, .size = {240, 180}});
+    std::ranges::fill(image.plane(0), std::uint8_t{255});
+    const scene::BoundingSphere whole = scene::boundingSphere(model);
+    drawArrows(image, arrowsOf(step, model), model,
+               cameraFromModel(candidateViews().front(), whole, whole), stepCamera(image.size()),
+               1.0);
+    int count = 0;
+    for (std::size_t i = 0; i + 2 < image.plane(0).size(); i += 3) {
+      count += image.plane(0)[i + 1] == overlay::kReservedRgb[1] ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_GT(shownOf("drain"), 50);
+  EXPECT_GT(shownOf("cover_off"), 50);
+  EXPECT_EQ(shownOf("as_found"), 0) << "nothing is moved";
 }
 
 TEST(StepTile, IsAsHighAsItsText) {
