@@ -117,7 +117,7 @@ struct RunOptions {
   std::vector<std::string> outputs;     ///< as they were given
   std::optional<std::uint64_t> frames;  ///< default: until the user ends it
   std::filesystem::path shaderDirectory;
-  std::string program;  ///< version of this program, for records
+  std::string program;                                ///< version of this program, for records
   std::optional<std::filesystem::path> provisioning;  ///< a folder with a site.toml
 };
 

@@ -76,7 +76,8 @@ struct OutputStageOptions {
 /// An output can show a waiting picture in place of frames, which fade in over it.
 /// Where it has surfaces that a GPU draws into, in memory that is scanned out or as textures of a
 /// window, the painter draws frames straight into them (SurfaceLending); frames that fade or lie
-/// under a caption, those of a display that is dimmed, and those for which none is free, are copied.
+/// under a caption, those of a display that is dimmed, and those for which none is free, are
+/// copied.
 class OutputStage {
  public:
   /// `output` was started and answered `format`; or it is null, for OutputStageOptions::absence,

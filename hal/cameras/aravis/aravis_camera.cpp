@@ -11,8 +11,8 @@
 #include "hal/cameras/aravis/frame_numbers.h"
 #include "hal/cameras/aravis/unpack12.h"
 #include "hal/frame_pool.h"
-#include "hal/printable.h"
 #include "hal/image.h"
+#include "hal/printable.h"
 #include "hal/returned_buffers.h"
 
 namespace pleinair::hal::aravis {
