@@ -331,9 +331,7 @@ Result<void> SdlWindow::redraw() {
   return present();
 }
 
-/// What was drawn. Mesa's software does not return from a swap whose connection is known to be
-/// broken (it sends the picture in parts of the greatest length of a request, which is then 0). So
-/// all that it might find out by comes before the look at the connection.
+/// What was drawn. Nothing is swapped once the connection is known to be broken.
 Result<void> SdlWindow::present() {
   SDL_RenderFlush(renderer_.get());
   if (display_connection::isLost()) return tl::unexpected(displayLost());

@@ -39,6 +39,7 @@ class DirectPainting : public testing::Test {
             live_.clock)) {
     live_.gpu.drawable = {hal::kLinearModifier};
   }
+  ~DirectPainting() override { live_.chain.reset(); }  // its displays, before their cards
 
   void begin(FakeCardSpec spec = gpuCard(), bool drawsDirectly = true) {
     card_ = &cards_.add(std::move(spec));
