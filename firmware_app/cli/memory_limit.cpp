@@ -35,7 +35,7 @@ std::string memoryLimitText() {
   rlimit memory{};
   if (getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur == RLIM_INFINITY) return {};
   return fmt::format("this process may use {} MiB of address space (ulimit -v)",
-                     memory.rlim_cur / (1024 * 1024));
+                     memory.rlim_cur >> 20U);
 }
 
 void explainCrashesUnderAMemoryLimit() {

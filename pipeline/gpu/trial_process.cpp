@@ -1,5 +1,6 @@
 #include "pipeline/gpu/trial_process.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -32,6 +33,7 @@ hal::Error failed(std::string problem) {
 std::optional<std::vector<std::uint64_t>> TrialProcess::numbersOf(int argc,
                                                                   const char* const* argv) {
   std::vector<std::uint64_t> numbers;
+  numbers.reserve(static_cast<std::size_t>(std::max(argc, 0)));
   for (int i = 2; i < argc; ++i) {
     const std::string_view text(argv[i]);
     std::uint64_t number = 0;

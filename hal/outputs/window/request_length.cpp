@@ -31,6 +31,7 @@ Function original() {
 }  // namespace
 }  // namespace pleinair::hal::window
 
+// NOLINTBEGIN(readability-identifier-naming): the name is XCB's
 extern "C" {
 [[gnu::visibility("default")]] std::uint32_t xcb_get_maximum_request_length(
     xcb_connection_t* connection);
@@ -42,3 +43,4 @@ std::uint32_t xcb_get_maximum_request_length(xcb_connection_t* connection) {
   return length == 0 ? kOfEveryServer : length;
 }
 }
+// NOLINTEND(readability-identifier-naming)
