@@ -3,8 +3,9 @@
 
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 
-// Mesa, fontconfig and D-Bus keep tables until the program ends; x265 and libaom lose some kilobytes
-// with an encoder, in x265_encoder_open() and inside of libaom, after libav has closed it.
+// Mesa, fontconfig and D-Bus keep tables until the program ends; x265 and libaom lose some
+// kilobytes with an encoder, in x265_encoder_open() and inside of libaom, after libav has closed
+// it.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libgallium\nleak:swrast_dri.so\nleak:libLLVM\nleak:libEGL\nleak:libfontconfig\n"
