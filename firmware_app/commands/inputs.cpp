@@ -23,7 +23,7 @@ using procedure::StepCommandKind;
 
 constexpr hal::Duration kInputPollInterval = std::chrono::milliseconds(20);
 
-/// What a pedal or gamepad is taught, the most useful first.
+/// The commands that a pedal or gamepad is taught, the most useful first.
 std::vector<procedure::StepCommand> taughtCommands() {
   constexpr std::array kKinds{StepCommandKind::kNext,      StepCommandKind::kBack,
                               StepCommandKind::kYes,       StepCommandKind::kNo,

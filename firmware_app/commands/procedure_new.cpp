@@ -72,7 +72,7 @@ void refuseExisting(const ProcedureNewOptions& options, const ModelFile& model,
 }
 
 scene::ModelSource sourceOf(const ProcedureNewOptions& options) {
-  // As the procedure's [model] will be read, so that the same names and errors hold.
+  // The model is read as the procedure's [model] will be, so that the same names and errors hold.
   const auto text = config::tomlString(options.model);
   if (!text) throw refusedProcedure("--model", "is not UTF-8", "a file name in UTF-8");
   std::string keys = "source = " + *text + "\n";

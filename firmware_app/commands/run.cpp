@@ -126,7 +126,7 @@ std::map<std::string, config::ParameterValues> parametersOfStyles(
   return parameters;
 }
 
-/// What keys step through; nothing where the configuration names no procedure.
+/// The procedure that keys step through; nothing where the configuration names none.
 std::unique_ptr<LiveProcedure> configuredProcedure(const Configuration& configuration,
                                                    const std::string& program,
                                                    const hal::Clock& clock,

@@ -36,7 +36,7 @@ std::vector<PrintedTag> tagsOf(const TagsOptions& options) {
   return tags;
 }
 
-/// What a scene says of these tags.
+/// The tables of a scene file that describe these tags.
 std::string sceneText(const std::vector<PrintedTag>& tags) {
   std::string text;
   for (const PrintedTag& tag : tags) {

@@ -9,7 +9,7 @@
 
 namespace pleinair::app {
 
-/// What the buttons of a pedal, gamepad, presenter or keyboard mean.
+/// The commands of the buttons of a pedal, gamepad, presenter or keyboard.
 struct MappedDevice {
   std::string device;  ///< as hal::ButtonDevice::device
   std::string label;   ///< the name that people know it by; may be empty
