@@ -11,7 +11,6 @@
 #include "hal/clock.h"
 #include "pipeline/gpu/aspect_fill.h"
 #include "pipeline/gpu/egl_context.h"
-#include "pipeline/gpu/frame_trial.h"
 #include "pipeline/gpu/frame_upload.h"
 #include "pipeline/gpu/gpu_loss.h"
 #include "pipeline/gpu/handle.h"
@@ -43,10 +42,10 @@ struct FramePathStatus {
 ///
 /// That a driver makes an image of a camera's memory without an error proves nothing: one was seen
 /// to give other pixels, another to crash in the draw. So each memory (BufferIdentity::pool) is
-/// tried with its first frame whose pixels can tell right from wrong: on a software renderer in a
-/// process of its own first (FrameTrial), then here, both against the processor's view; and once
-/// more when a buffer comes round for the first time, because an image may be a snapshot. Frames
-/// are uploaded until the verdict, and for ever after a refusal or the first failure.
+/// tried with its first frame whose pixels can tell right from wrong, against the processor's view;
+/// and once more when a buffer comes round for the first time, because an image may be a snapshot.
+/// Frames are uploaded until the verdict, and for ever after a refusal or the first failure; on
+/// software renderers always.
 ///
 /// Images are kept by buffer identity. A frame's lease is held until the fence behind the pass that
 /// reads the buffer has signalled; while kMostHeld are held, frames are uploaded. Never waits, but
@@ -106,9 +105,6 @@ class CameraFrames {
   hal::FrameFormat format_;
   std::uint64_t modifier_ = hal::kLinearModifier;
   hal::TimePoint began_;
-  std::unique_ptr<FrameTrial> trial_;
-  std::shared_ptr<const void> trialLease_;
-  bool isTried_ = false;                 ///< no crash is to be expected
   bool isConfirmed_ = false;             ///< a buffer has come round
   std::vector<ImportedBuffer> buffers_;  ///< by BufferIdentity::index
   std::vector<Reading> readings_;        ///< oldest first

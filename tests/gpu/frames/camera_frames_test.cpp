@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/gpu/frame_trial.h"
 #include "pipeline/gpu/imported_texture.h"
+#include "pipeline/gpu/pixel_comparison.h"
 #include "tests/gpu/frames/shared_buffers.h"
 #include "tests/support/gl_test.h"
 

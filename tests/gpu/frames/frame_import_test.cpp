@@ -11,8 +11,8 @@
 #include "hal/frame_memory/allocators.h"
 #include "hal/frame_memory/shared_frame.h"
 #include "pipeline/gpu/camera_frames.h"
-#include "pipeline/gpu/frame_trial.h"
 #include "pipeline/gpu/imported_texture.h"
+#include "pipeline/gpu/pixel_comparison.h"
 #include "tests/support/gl_pictures.h"
 #include "tests/support/gl_test.h"
 

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/gpu/camera_frames.h"
-#include "pipeline/gpu/frame_trial.h"
+#include "pipeline/gpu/pixel_comparison.h"
 #include "tests/support/gl_test.h"
 
 namespace pleinair::gpu {

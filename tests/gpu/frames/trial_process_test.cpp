@@ -11,8 +11,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "pipeline/gpu/frame_trial.h"
-
 namespace pleinair::gpu {
 namespace {
 
@@ -73,21 +71,6 @@ TEST(TrialProcesses, HaveTheDescriptorsInTheirOrder) {
   for (const int fd : {first[0], first[1], second[0], second[1]}) close(fd);
 }
 
-TEST(FrameTrials, RefuseArgumentsThatDescribeNoFrame) {
-  const auto statusOf = [](std::vector<const char*> arguments) {
-    arguments.insert(arguments.begin(), {"pleinair", "--read-frame"});
-    return runFrameTrial(static_cast<int>(arguments.size()), arguments.data());
-  };
-  EXPECT_EQ(statusOf({}), 2);
-  EXPECT_EQ(statusOf({"4", "64", "48", "0", "0", "0", "0", "64"}), 2) << "a plane is missing";
-  EXPECT_EQ(statusOf({"99", "64", "48", "0", "0", "0", "0", "64"}), 2);
-  EXPECT_EQ(statusOf({"0", "-1", "48", "0", "0", "0", "0", "64"}), 2);
-  EXPECT_EQ(statusOf({"0", "90000", "48", "0", "0", "0", "0", "64"}), 2);
-  EXPECT_EQ(statusOf({"0", "64x", "48", "0", "0", "0", "0", "64"}), 2);
-  const std::array<const char*, 2> other{"pleinair", "run"};
-  EXPECT_FALSE(runFrameTrial(2, other.data())) << "another task of the program";
-}
-
 /// What this executable does as a trial.
 int asTrial(std::string_view what) {
   if (what == "three") return 3;
@@ -114,7 +97,6 @@ int main(int argc, char** argv) {
   if (argc == 3 && std::string_view(argv[1]) == "--as-trial") {
     return pleinair::gpu::asTrial(argv[2]);
   }
-  if (const auto status = pleinair::gpu::runFrameTrial(argc, argv)) return *status;
   testing::InitGoogleMock(&argc, argv);
   return RUN_ALL_TESTS();
 }
