@@ -13,7 +13,6 @@
 #include <SDL.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "tests/support/environment.h"
 #include "tests/support/x_server.h"
@@ -126,41 +125,6 @@ TEST(WindowOnXDeathTest, AServerThatDiesIsALossOfTheWindowAlone) {
   }
   EXPECT_EXIT(loseTheServer(), testing::ExitedWithCode(0),
               "shown, lost, not read, no events, not opened again, goes on");
-}
-
-/// A window that draws all the time on an X server that is killed at some moment of that; ends the
-/// process.
-[[noreturn]] void loseTheServerWhileDrawing(std::chrono::microseconds after) {
-  constexpr unsigned kSeconds = 20;
-  alarm(kSeconds);  // drawing may never return
-  support::XServer server;
-  support::setVariable("SDL_VIDEODRIVER", "x11");
-  support::setVariable("DISPLAY", server.display().c_str());
-  {
-    const std::unique_ptr<Window> window = orThrow(openWindow());
-    orThrow(window->start({.size = {640, 480}}));
-    const Image picture = colours({640, 480});
-    orThrow(window->write(picture.view(), {}));
-    std::thread killer([&] {
-      std::this_thread::sleep_for(after);
-      server.kill();
-    });
-    Result<void> written;
-    while (written) written = window->write(picture.view(), {});
-    killer.join();
-    if (written.error().kind == ErrorKind::kDeviceLost) std::fputs("lost", stderr);
-  }
-  std::exit(0);  // NOLINT(concurrency-mt-unsafe): a child of its own
-}
-
-TEST(WindowOnXDeathTest, AServerThatDiesWhileItIsDrawnOnIsALoss) {
-  if (const std::string missing = support::XServer::missing(); !missing.empty()) {
-    GTEST_SKIP() << missing;
-  }
-  for (int i = 0; i < 12; ++i) {
-    const std::chrono::microseconds after(20'000 + 1'700 * i);
-    EXPECT_EXIT(loseTheServerWhileDrawing(after), testing::ExitedWithCode(0), "lost") << i;
-  }
 }
 
 TEST_F(WindowTest, IsBlackBeforeTheFirstPicture) {
