@@ -11,7 +11,7 @@
 
 namespace pleinair::app {
 
-/// A caption over the frames of an output of this format, in the lower left corner of the picture
+/// A caption over the frames of an output of this format, in the upper left corner of the picture
 /// as people see it, whichever way the display hangs. Null where there is no room.
 std::shared_ptr<const runtime::Caption> captionFor(const std::string& text,
                                                    const hal::OutputFormat& format);

@@ -68,7 +68,7 @@ CaptionPicture captionPicture(const std::string& text, hal::FrameSize size) {
         .image =
             hal::Image({.pixelFormat = hal::PixelFormat::kRgba8, .size = band, .encoding = {}}),
         .left = margin,
-        .top = size.height - margin - band.height};
+        .top = margin};
     drawText(caption.image, coverage.view(), padding);
     return caption;
   }
