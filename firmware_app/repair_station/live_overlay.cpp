@@ -1,4 +1,4 @@
-#include "firmware_app/live/live_overlay.h"
+#include "firmware_app/repair_station/live_overlay.h"
 
 #include <algorithm>
 #include <chrono>

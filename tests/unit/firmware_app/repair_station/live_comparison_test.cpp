@@ -5,7 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gmock/gmock.h>
 
-#include "firmware_app/live/live_procedure.h"
+#include "firmware_app/repair_station/live_procedure.h"
 #include "hal/media/picture_file.h"
 #include "pipeline/record/record_check.h"
 #include "pipeline/scene/models/model.h"

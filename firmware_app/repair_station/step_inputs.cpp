@@ -1,4 +1,4 @@
-#include "firmware_app/live/step_inputs.h"
+#include "firmware_app/repair_station/step_inputs.h"
 
 #include <algorithm>
 #include <iterator>

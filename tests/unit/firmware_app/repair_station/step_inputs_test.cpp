@@ -1,5 +1,5 @@
 // Pedals, cards and commands from elsewhere, down to the step and the record.
-#include "firmware_app/live/step_inputs.h"
+#include "firmware_app/repair_station/step_inputs.h"
 
 #include <filesystem>
 #include <fstream>

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "firmware_app/live/pending_stills.h"
 #include "firmware_app/overlay/step_content.h"
+#include "firmware_app/repair_station/pending_stills.h"
 #include "hal/clock.h"
 #include "hal/error.h"
 #include "hal/image.h"

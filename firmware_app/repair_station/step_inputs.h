@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "firmware_app/config/input_map.h"
-#include "firmware_app/live/command_cards.h"
-#include "firmware_app/live/live_procedure.h"
+#include "firmware_app/repair_station/command_cards.h"
+#include "firmware_app/repair_station/live_procedure.h"
 #include "hal/clock.h"
 #include "hal/error.h"
 #include "hal/keyboards/buttons.h"

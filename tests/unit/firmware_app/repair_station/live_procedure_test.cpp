@@ -1,4 +1,4 @@
-#include "firmware_app/live/live_procedure.h"
+#include "firmware_app/repair_station/live_procedure.h"
 
 #include <fstream>
 
