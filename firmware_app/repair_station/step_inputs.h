@@ -12,6 +12,7 @@
 #include "hal/clock.h"
 #include "hal/error.h"
 #include "hal/keyboards/buttons.h"
+#include "pipeline/procedure/notices.h"
 #include "pipeline/procedure/step_command.h"
 
 namespace pleinair::app {
@@ -57,6 +58,7 @@ class StepInputs {
  private:
   void obey(const procedure::StepCommand& command, const std::string& source);
   std::string nameOf(std::size_t device) const;
+  const procedure::Notices& notices() const { return procedure::noticesIn(procedure_.language()); }
 
   InputMap map_;
   LiveProcedure& procedure_;

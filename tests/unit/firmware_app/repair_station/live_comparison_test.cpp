@@ -72,8 +72,12 @@ class LiveComparisonTest : public testing::Test {
     obey(StepCommandKind::kNext);
     ASSERT_TRUE(live_->takeStillRequest());
     live_->putStill(picture(frequency), place);
+    live_->finish();
   }
-  void obey(StepCommandKind kind) { live_->obey({.kind = kind, .operatorName = {}}, "pedal"); }
+  void obey(StepCommandKind kind) {
+    live_->obey({.kind = kind, .operatorName = {}}, "pedal");
+    live_->finish();
+  }
   std::string step() const { return live_->status().step; }
   std::string notice() { return live_->takeNotice().value_or(""); }
   /// The outcomes in the record, with who found them.
