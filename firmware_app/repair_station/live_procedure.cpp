@@ -104,7 +104,11 @@ bool LiveProcedure::pressForStep(const hal::KeyPressed& key) {
 bool LiveProcedure::isTooSoon(const std::string& source) {
   if (!moved_) return false;
   const hal::Duration since = clock_.now() - *moved_;
-  if (source == moveSource_) return source != notices().theKeys && since < kBounce;
+  if (source == moveSource_) {
+    // Keyboards bounce for themselves; a program that has seen the next step may be quick.
+    const bool bounces = source != notices().theKeys && source != notices().theServer;
+    return bounces && since < kBounce;
+  }
   if (since >= kOneAtATime) return false;
   note(procedure::filled(notices().twoInputs, moveSource_, source));
   return true;
