@@ -11,7 +11,7 @@
 #include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/commands/procedure.h"
 #include "firmware_app/config/input_map.h"
-#include "firmware_app/live/input_learning.h"
+#include "firmware_app/repair_station/input_learning.h"
 #include "hal/clock.h"
 #include "hal/keyboards/buttons.h"
 #include "hal/pending_file.h"

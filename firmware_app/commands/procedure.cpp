@@ -23,13 +23,13 @@ using procedure::Procedure;
 /// The procedure's model alone, as a scene, for the checks of scenes.
 scene::Scene sceneOf(const Procedure& procedure) {
   scene::Scene scene;
-  scene.models.push_back(
-      {.name = "model",
-       .source = procedure.source,
-       .model = procedure.model,
-       .tagId = 0,
-       .attachFromModel = glm::scale(glm::dmat4(1.0), glm::dvec3(procedure.unitMetres)),
-       .unitMetres = procedure.unitMetres});
+  scene.models.push_back({.name = "model",
+                          .source = procedure.source,
+                          .model = procedure.model,
+                          .tagId = 0,
+                          .attachFromModel = glm::scale(glm::dmat4(procedure.uprightFromModel),
+                                                        glm::dvec3(procedure.unitMetres)),
+                          .unitMetres = procedure.unitMetres});
   return scene;
 }
 

@@ -14,7 +14,7 @@
 #include "firmware_app/cli/progress.h"
 #include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/commands/procedure.h"
-#include "firmware_app/live/seen_tags.h"
+#include "firmware_app/repair_station/seen_tags.h"
 #include "hal/cameras/recording/recording.h"
 #include "hal/media/picture_file.h"
 #include "hal/pending_file.h"

@@ -18,7 +18,7 @@ std::string LiveCaption::fadingText(double framesPerSecond) const {
   const std::string first = notice_.empty() ? tuning_.parameterLine() : notice_;
   const std::string text =
       fmt::format("{}\n{} · {:.0f} frames/s", first, tuning_.state(), framesPerSecond);
-  return tuning_.showsHelp() ? LiveTuning::help() + "\n\n" + text : text;
+  return tuning_.showsHelp() ? tuning_.help() + "\n\n" + text : text;
 }
 
 LiveCaption::Shown LiveCaption::shown(double framesPerSecond) const {

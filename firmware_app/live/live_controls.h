@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "firmware_app/live/seen_tags.h"
+#include "firmware_app/repair_station/seen_tags.h"
 #include "hal/error.h"
 #include "hal/image.h"
 #include "pipeline/engine/painter.h"

@@ -7,6 +7,7 @@
 #include <spdlog/spdlog.h>
 
 #include "firmware_app/cli/shell_text.h"
+#include "firmware_app/repair_station/step_text.h"
 #include "hal/outputs/display/display_output.h"
 #include "hal/outputs/registry.h"
 #include "pipeline/styles/registry.h"
@@ -69,7 +70,8 @@ LiveInput::LiveInput(const LiveJob& job, LiveControls& controls, LiveReporter& r
       displayCaption_(tuning_, *job.clock) {
   if (job.procedure != nullptr) {
     tuning_.setKeyFilter(
-        [procedure = job.procedure](const hal::KeyPressed& key) { return procedure->press(key); });
+        [procedure = job.procedure](const hal::KeyPressed& key) { return procedure->press(key); },
+        keyHelp(job.procedure->language()));
     steps_.emplace(job.inputs, hal::kernelKeyboards(), *job.procedure, job.commands, *job.clock);
   }
   if (std::ranges::any_of(job.outputs, isOnConsole)) takeConsole();

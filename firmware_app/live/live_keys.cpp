@@ -25,7 +25,7 @@ LiveKeys::Taken LiveKeys::take() {
     if (request == LiveTuning::Request::kSnapshot) taken.requests.snapshot = true;
     if (request == LiveTuning::Request::kSaveLook) taken.requests.saveLook = true;
     if (request == LiveTuning::Request::kCommandLine) taken.requests.commandLine = true;
-    if (tuning_.showsHelp() && !showedHelp) taken.state.push_back(LiveTuning::help());
+    if (tuning_.showsHelp() && !showedHelp) taken.state.push_back(tuning_.help());
   }
   if (taken.requests.tuned) {
     taken.state.push_back(fmt::format("{} · {}", tuning_.state(), tuning_.parameterLine()));

@@ -29,7 +29,6 @@
 #include "firmware_app/live/live_controls.h"
 #include "firmware_app/live/live_input.h"
 #include "firmware_app/live/live_outputs.h"
-#include "firmware_app/live/live_overlay.h"
 #include "firmware_app/live/live_painter.h"
 #include "firmware_app/live/live_reporter.h"
 #include "firmware_app/live/machine_health.h"
@@ -38,6 +37,7 @@
 #include "firmware_app/live/snapshot_saver.h"
 #include "firmware_app/live/status_page.h"
 #include "firmware_app/live/thumbnail.h"
+#include "firmware_app/repair_station/live_overlay.h"
 #include "firmware_app/scene/scene_warnings.h"
 #include "hal/supervisor/camera_supervisor.h"
 #include "hal/supervisor/hotplug_monitor.h"
@@ -406,7 +406,10 @@ class LivePainting {
     if (job_.procedure == nullptr) return;
     const scene::Model* machine =
         job_.machine ? job_.scene.models[*job_.machine].model.get() : nullptr;
-    overlay_.emplace(machine, job_.procedureFolder, outputs_.pictureSize(), job_.showsInset);
+    std::vector<int> cards;
+    for (const auto& [id, command] : job_.inputs.cards) cards.push_back(id);
+    overlay_.emplace(machine, job_.procedureFolder, outputs_.pictureSize(), job_.showsInset,
+                     std::move(cards));
     controls_.setOverlay(overlay_->update(job_.procedure->shown(), job_.clock->now()));
   }
 
@@ -421,8 +424,8 @@ class LivePainting {
     }
     job_.procedure->poll();
     if (!isHeld && job_.procedure->takeStillRequest()) controls_.requestStill();
-    if (const auto still = controls_.takeStill()) {
-      job_.procedure->putStill(still->image, still->place);
+    if (auto still = controls_.takeStill()) {
+      job_.procedure->putStill(std::move(still->image), still->place);
     }
     if (const auto notice = job_.procedure->takeNotice()) {
       notify(*notice, true);
@@ -463,6 +466,13 @@ class LivePainting {
     } while (saveSnapshot());
   }
 
+  /// What was answered last is on the disk before the program ends.
+  void finishProcedure() {
+    if (job_.procedure == nullptr) return;
+    job_.procedure->finish();
+    if (const auto notice = job_.procedure->takeNotice()) notify(*notice, true);
+  }
+
   void reportSnapshot(const hal::Result<std::filesystem::path>& saved) {
     notify(saved ? "saved " + saved->string() : saved.error().message(), saved.has_value());
   }
@@ -497,6 +507,7 @@ class LivePainting {
     const hal::Duration elapsed = job_.clock->now() - began_;
     stopThreads();
     finishSnapshots();
+    finishProcedure();
     outputs_.finish();
     writeFrameLog();
     reporter_.interrupt();

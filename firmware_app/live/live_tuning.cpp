@@ -218,7 +218,7 @@ std::string LiveTuning::parameterLine() const {
                      unit, rangeText(parameter), parameter.help);
 }
 
-std::string LiveTuning::help() {
+std::string LiveTuning::help() const {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kKeys{{
       {"Tab, Down", "next parameter (Shift-Tab, Up: the one before)"},
       {"Left, Right", "change it (with Shift: ten times as far)"},
@@ -235,7 +235,7 @@ std::string LiveTuning::help() {
       {"h, ?, F1", "these lines"},
       {"q, Escape", "quit"},
   }};
-  std::string text;
+  std::string text = filterHelp_;
   for (const auto& [keys, meaning] : kKeys) {
     text += fmt::format("{}{}\t{}", text.empty() ? "" : "\n", keys, meaning);
   }

@@ -57,7 +57,11 @@ class LiveTuning {
   Request press(const hal::KeyPressed& key);
   /// Sees every key first, and returns whether it has handled it: a procedure that is carried out.
   using KeyFilter = std::function<bool(const hal::KeyPressed&)>;
-  void setKeyFilter(KeyFilter filter) { filter_ = std::move(filter); }
+  /// `help`: its keys, as help() has them.
+  void setKeyFilter(KeyFilter filter, std::string help) {
+    filter_ = std::move(filter);
+    filterHelp_ = std::move(help);
+  }
 
   /// Shows the camera's picture, or, where that is shown, the finished picture again.
   void toggleCamera();
@@ -79,8 +83,8 @@ class LiveTuning {
   std::string state() const;
   /// The chosen parameter with its value, range and help; or that there is none.
   std::string parameterLine() const;
-  /// The list of keys: a line for each, in two columns separated by a tab.
-  static std::string help();
+  /// The list of keys, those of a filter first: a line for each, in two columns separated by a tab.
+  std::string help() const;
 
  private:
   struct Style {
@@ -116,6 +120,7 @@ class LiveTuning {
   bool isPaused_ = false;
   bool showsHelp_ = false;
   KeyFilter filter_;
+  std::string filterHelp_;
 };
 
 }  // namespace pleinair::app

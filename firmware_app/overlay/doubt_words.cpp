@@ -19,6 +19,8 @@ std::string_view wordsOf(overlay::Doubt doubt, std::string_view language) {
       return words.notInView;
     case overlay::Doubt::kOtherMachine:
       return words.otherTag;
+    case overlay::Doubt::kContradicted:
+      return words.tagsContradict;
   }
   return {};
 }

@@ -132,7 +132,9 @@ Column sideColumn(const StepShown& shown, int x, int width, const Measures& m) {
   const procedure::Words& words = procedure::wordsIn(shown.language);
   if (shown.step != procedure::kEnd) {
     const Step& step = procedure.steps[shown.step];
-    if (step.torque) column.add(step.torque->text, m.px(20), kAmber, "Sans Bold");
+    if (step.torque)
+      column.add(procedure::withDecimals(step.torque->text, shown.language), m.px(20), kAmber,
+                 "Sans Bold");
     if (!step.tools.empty()) {
       std::vector<std::string> names;
       for (const std::size_t each : step.tools) {

@@ -64,6 +64,10 @@ void putMachine(scene::Scene& scene, std::size_t machine, const procedure::Proce
                                 place.unitMetres, procedure.unitMetres),
          .remedy = "the same units in both"});
   }
+  // What a file calls up, the scene has said of its own; a built-in one stands upright.
+  if (!std::holds_alternative<scene::FileSource>(place.source)) {
+    place.attachFromModel = place.attachFromModel * glm::dmat4(procedure.uprightFromModel);
+  }
   auto model = std::make_shared<scene::Model>(*procedure.model);
   for (scene::ModelPart& part : model->parts) part.radiansPerSecond = 0.0;
   place.model = std::move(model);

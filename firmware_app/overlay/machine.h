@@ -18,8 +18,9 @@ std::size_t machineIn(const scene::Scene& scene, const procedure::Procedure& pro
                       const std::string& name);
 
 /// The scene says where a machine stands, the procedure what it is made of: puts the procedure's
-/// model in the place of that of the scene. Parts stand still, as on a machine under repair. Throws
-/// hal::Failure where both have other units.
+/// model in the place of that of the scene. Parts stand still, as on a machine under repair. A
+/// file's `up` is the scene's, where that has a file, too. Throws hal::Failure where both have
+/// other units.
 void putMachine(scene::Scene& scene, std::size_t machine, const procedure::Procedure& procedure);
 
 /// Parts of a model at rest, in its frame.

@@ -137,13 +137,13 @@ scene::BoundingSphere sphereOf(std::span<const Facet> facets, bool focusOnly) {
 
 /// The view that shows most of the parts; the usual one is left only for a much better one.
 glm::dmat4 bestView(std::span<const Facet> facets, const scene::BoundingSphere& focus,
-                    const scene::BoundingSphere& whole) {
+                    const scene::BoundingSphere& whole, const glm::dmat3& uprightFromModel) {
   constexpr double kMuchBetter = 1.4;
   Raster trial({64, 48});
-  glm::dmat4 best = cameraFromModel(candidateViews().front(), focus, whole);
+  glm::dmat4 best = cameraFromModel(candidateViews().front(), focus, whole, uprightFromModel);
   double most = -1.0;
   for (const ViewAngles& view : candidateViews()) {
-    const glm::dmat4 camera = cameraFromModel(view, focus, whole);
+    const glm::dmat4 camera = cameraFromModel(view, focus, whole, uprightFromModel);
     trial.draw(facets, camera, false);
     const auto shown =
         static_cast<double>(std::ranges::count(trial.pixels(), Layer::kFocus, &Shown::layer));
@@ -170,7 +170,8 @@ glm::vec3 colourOf(const Shown& shown, bool hidesFocus, int x, int y) {
 
 hal::Image modelPicture(const scene::Model& model, std::span<const PartLook> looks,
                         std::span<const overlay::Ghost> together,
-                        std::span<const overlay::Arrow> arrows, hal::FrameSize size) {
+                        std::span<const overlay::Arrow> arrows, hal::FrameSize size,
+                        const glm::dmat3& uprightFromModel) {
   std::vector<Layer> layers(model.parts.size(), Layer::kAround);
   for (std::size_t i = 0; i < looks.size(); ++i) {
     if (looks[i] == PartLook::kHidden) layers[i] = Layer::kLeftOut;
@@ -183,7 +184,8 @@ hal::Image modelPicture(const scene::Model& model, std::span<const PartLook> loo
   const std::vector<Facet> facets = facetsOf(model, layers);
   const scene::BoundingSphere whole = sphereOf(facets, false);
   const scene::BoundingSphere focus = sphereOf(facets, true);
-  const glm::dmat4 camera = bestView(facets, focus.radiusMetres > 0.0 ? focus : whole, whole);
+  const glm::dmat4 camera =
+      bestView(facets, focus.radiusMetres > 0.0 ? focus : whole, whole, uprightFromModel);
   const hal::FrameSize large{2 * size.width, 2 * size.height};
   Raster all(large);
   Raster alone(large);

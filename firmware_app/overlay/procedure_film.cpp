@@ -27,7 +27,7 @@ std::string questionOf(const Procedure& procedure, std::size_t index, const std:
   if (step.check->kind == procedure::CheckKind::kCompare) return std::string(words.comparison);
   std::string text = procedure.text(index, language).question;
   if (step.check->kind == procedure::CheckKind::kValue) {
-    text += ": " + procedure::limitsText(*step.check);
+    text += ": " + procedure::withDecimals(procedure::limitsText(*step.check), language);
   }
   return text;
 }

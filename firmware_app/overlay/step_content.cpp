@@ -12,6 +12,7 @@
 #include "firmware_app/overlay/model_picture.h"
 #include "firmware_app/procedure/step_arrows.h"
 #include "pipeline/overlay/part_shape.h"
+#include "pipeline/procedure/words.h"
 
 namespace pleinair::app {
 namespace {
@@ -97,7 +98,9 @@ void addLabel(const StepShown& shown, int width, OverlayContent& content) {
   const std::size_t moved = isScrewed ? content.arrows.size() : 0;
   std::string text;
   if (moved > 1 && moved < kMostArrows) text = fmt::format("×{}", moved);
-  if (step.torque) text += (text.empty() ? "" : "  ") + step.torque->text;
+  if (step.torque) {
+    text += (text.empty() ? "" : "  ") + procedure::withDecimals(step.torque->text, shown.language);
+  }
   content.labels.push_back(
       {.picture = stepMarker(fmt::format("{}", shown.step + 1), text, width), .parts = step.parts});
 }
@@ -112,10 +115,11 @@ OverlayContent stepContent(const StepShown& shown, const scene::Model& machine,
   addLabel(shown, output.width, content);
   content.panel = instructionPanel(shown, folder, output);
   const int width = static_cast<int>(kInsetShare * output.width);
-  content.inset = inset != nullptr
-                      ? *inset
-                      : modelPicture(machine, content.looks, content.ghosts, content.arrows,
-                                     {width, std::max(1, 3 * width / 4)});
+  content.inset =
+      inset != nullptr
+          ? *inset
+          : modelPicture(machine, content.looks, content.ghosts, content.arrows,
+                         {width, std::max(1, 3 * width / 4)}, shown.procedure->uprightFromModel);
   for (std::size_t i = 0; i < overlay::kDoubts; ++i) {
     const std::string text(wordsOf(static_cast<overlay::Doubt>(i), shown.language));
     if (!text.empty()) content.badges.at(i) = doubtBadge(text, output.width);

@@ -129,7 +129,8 @@ struct StepPictures::Impl {
     double bestShown = -1.0;
     for (const ViewAngles& view : candidateViews()) {
       const auto pixels =
-          pixelsOf(drawing, trialPaper, cameraFromModel(view, drawing.focusSphere, whole));
+          pixelsOf(drawing, trialPaper,
+                   cameraFromModel(view, drawing.focusSphere, whole, procedure.uprightFromModel));
       const auto shown = static_cast<double>(std::ranges::count(pixels, StepPixel::kFocus));
       if (shown <= kMuchBetter * bestShown) continue;
       best = view;
@@ -154,7 +155,8 @@ struct StepPictures::Impl {
                     .focusSphere = focus ? scene::boundingSphere(*focus) : whole};
     drawing.renderer.emplace(library, sceneOf(surroundings, focus));
     const ViewAngles view = bestView(drawing);
-    const glm::dmat4 camera = cameraFromModel(view, drawing.focusSphere, whole);
+    const glm::dmat4 camera =
+        cameraFromModel(view, drawing.focusSphere, whole, procedure.uprightFromModel);
     const std::vector<StepPixel> pixels = pixelsOf(drawing, paper, camera);
     const scene::ArFrame& frame = compose(drawing, paper, camera, true);
     readback->submit(*frame.colour);

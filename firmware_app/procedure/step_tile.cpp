@@ -59,7 +59,7 @@ std::string checkText(const Procedure& procedure, std::size_t index, const std::
                                                         : words.comparison)
                                       : question;
   if (step.check->kind == procedure::CheckKind::kValue) {
-    text += ": " + procedure::limitsText(*step.check);
+    text += ": " + procedure::withDecimals(procedure::limitsText(*step.check), language);
   }
   return "☐ " + text;
 }
@@ -103,8 +103,9 @@ std::vector<TextBlock> blocksOf(const Procedure& procedure, std::size_t index,
         {.text = fmt::format("{}: {}", words.tools, fmt::join(names, ", ")), .ink = kMuted});
   }
   if (step.torque) {
-    blocks.push_back(
-        {.text = fmt::format("{}: {}", words.torque, step.torque->text), .font = "Sans Bold"});
+    blocks.push_back({.text = fmt::format("{}: {}", words.torque,
+                                          procedure::withDecimals(step.torque->text, language)),
+                      .font = "Sans Bold"});
   }
   if (step.check) {
     blocks.push_back({.text = checkText(procedure, index, language), .font = "Sans Bold"});

@@ -39,7 +39,7 @@ tracking::CameraModel stepCamera(hal::FrameSize size) {
 }
 
 glm::dmat4 cameraFromModel(const ViewAngles& view, const scene::BoundingSphere& focus,
-                           const scene::BoundingSphere& whole) {
+                           const scene::BoundingSphere& whole, const glm::dmat3& uprightFromModel) {
   constexpr double kFocusShare = 1.8;  // radii of the focus in half of the picture
   constexpr double kWholeShare = 0.55;
   const double radius =
@@ -53,7 +53,8 @@ glm::dmat4 cameraFromModel(const ViewAngles& view, const scene::BoundingSphere& 
   const glm::dvec3 right = glm::normalize(glm::cross(ahead, glm::dvec3(0.0, 0.0, 1.0)));
   const glm::dvec3 down = glm::cross(ahead, right);
   // A little towards the middle of the machine, so that the surroundings show where the part is.
-  const glm::dvec3 centre = glm::mix(glm::dvec3(focus.centre), glm::dvec3(whole.centre), 0.2);
+  const glm::dvec3 centre =
+      uprightFromModel * glm::mix(glm::dvec3(focus.centre), glm::dvec3(whole.centre), 0.2);
   const glm::dvec3 eye = centre + distance * toViewer;
   glm::dmat4 matrix(1.0);
   const std::array<glm::dvec3, 3> rows{right, down, ahead};
@@ -62,7 +63,7 @@ glm::dmat4 cameraFromModel(const ViewAngles& view, const scene::BoundingSphere& 
     for (int column = 0; column < 3; ++column) matrix[column][row] = axis[column];
     matrix[3][row] = -glm::dot(axis, eye);
   }
-  return matrix;
+  return matrix * glm::dmat4(uprightFromModel);
 }
 
 }  // namespace pleinair::app

@@ -32,8 +32,10 @@ inline constexpr double kStepViewDeg = 30.0;
 tracking::CameraModel stepCamera(hal::FrameSize size);
 
 /// Camera (OpenCV's frame: x right, y down, z ahead) from model, so that `focus` fills about a
-/// third of the picture's height, and at least a part of `whole` is seen around it.
+/// third of the picture's height, and at least a part of `whole` is seen around it. Both spheres
+/// are in the model's frame; angles are about the upright one, whose z is up.
 glm::dmat4 cameraFromModel(const ViewAngles& view, const scene::BoundingSphere& focus,
-                           const scene::BoundingSphere& whole);
+                           const scene::BoundingSphere& whole,
+                           const glm::dmat3& uprightFromModel = glm::dmat3(1.0));
 
 }  // namespace pleinair::app

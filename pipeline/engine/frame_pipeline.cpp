@@ -317,7 +317,8 @@ void FramePipeline::drawOverlay(const scene::ArFrame& frame,
                               .camera = &*fullCamera_,
                               .machine = machine ? renderer_.placeOf(*machine) : std::nullopt,
                               .isMachineSeen = isMachineSeen(tracked),
-                              .unknownTags = std::span(unknown).first(count)});
+                              .unknownTags = std::span(unknown).first(count),
+                              .tracked = &tracked});
 }
 
 /// Luma for the trackers, if any is at work. Memory that a device shares may be uncached, where the

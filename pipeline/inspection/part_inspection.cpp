@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 
 namespace pleinair::inspection {
@@ -15,8 +14,8 @@ constexpr double kMinHalfPx = 20.0;      ///< of the window in the still
 constexpr double kMinBrightness = 12.0;  // grey levels
 constexpr double kMinStructured = 0.10;  ///< share of the template that has structure
 
-Inspection uncertain(std::string reason) {
-  return {.verdict = Verdict::kUncertain, .reason = std::move(reason), .match = {}};
+Inspection uncertain(Uncertainty reason, double viewDeg) {
+  return {.verdict = Verdict::kUncertain, .reason = reason, .viewDeg = viewDeg, .match = {}};
 }
 
 }  // namespace
@@ -32,17 +31,17 @@ Inspection inspectPart(const PosedPicture& templatePicture, const PosedPicture& 
   const double viewDeg = glm::degrees(
       viewAngleRad(part.centre, templatePicture.cameraFromModel, still.cameraFromModel));
   if (viewDeg > kMaxViewDeg) {
-    return uncertain(fmt::format("look from where the template was taken: {:.0f}° off", viewDeg));
+    return uncertain(Uncertainty::kOtherSide, viewDeg);
   }
   const PartWindow window =
       windowAbout(part.centre, part.radiusMetres, templatePicture.cameraFromModel);
   const WindowPicture expected = windowPicture(window, templatePicture);
   const WindowPicture seen = windowPicture(window, still);
   if (std::min(expected.shareInside, seen.shareInside) < kMinShareInside) {
-    return uncertain("the part is not wholly in the picture");
+    return uncertain(Uncertainty::kNotWholly, viewDeg);
   }
   if (seen.halfPx < kMinHalfPx || seen.halfPx < 0.5 * expected.halfPx) {
-    return uncertain("come closer");
+    return uncertain(Uncertainty::kTooFar, viewDeg);
   }
   StructureSearch search{
       .reliefPx = reliefShiftPx(window, templatePicture.cameraFromModel, still.cameraFromModel)};
@@ -52,15 +51,15 @@ Inspection inspectPart(const PosedPicture& templatePicture, const PosedPicture& 
     search.relief = relief;
   }
   const StructureMatch match = matchStructure(expected.luma.view(), seen.luma.view(), search);
-  Inspection inspection{.verdict = verdictOf(match), .reason = {}, .match = match};
+  Inspection inspection{.verdict = verdictOf(match), .viewDeg = viewDeg, .match = match};
   if (match.structured < kMinStructured) {
     inspection.verdict = Verdict::kUncertain;
-    inspection.reason = "the template shows nothing to compare: take another one";
+    inspection.reason = Uncertainty::kNothingToCompare;
   } else if (match.brightness < kMinBrightness) {
     inspection.verdict = Verdict::kUncertain;
-    inspection.reason = "the picture is too dark";
+    inspection.reason = Uncertainty::kTooDark;
   } else if (inspection.verdict == Verdict::kUncertain) {
-    inspection.reason = "almost alike: look for yourself";
+    inspection.reason = Uncertainty::kAlmostAlike;
   }
   return inspection;
 }

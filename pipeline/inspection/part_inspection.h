@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <span>
-#include <string>
 
 #include <glm/vec3.hpp>
 
@@ -15,9 +14,21 @@ namespace pleinair::inspection {
 /// worse than a question.
 enum class Verdict { kPass, kFail, kUncertain };
 
+/// Why a comparison is uncertain.
+enum class Uncertainty {
+  kNone,
+  kOtherSide,  ///< taken from another side than the template
+  kNotWholly,  ///< a piece of the part is beside the picture
+  kTooFar,
+  kNothingToCompare,  ///< the template shows no structure
+  kTooDark,
+  kAlmostAlike  ///< between pass and fail
+};
+
 struct Inspection {
   Verdict verdict = Verdict::kUncertain;
-  std::string reason;                   ///< of kUncertain, what would help: "come closer"
+  Uncertainty reason = Uncertainty::kNone;  ///< of kUncertain
+  double viewDeg = 0.0;  ///< between the places of both cameras, as the part sees them
   std::optional<StructureMatch> match;  ///< nothing where nothing could be compared
 };
 

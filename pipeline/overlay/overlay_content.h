@@ -46,13 +46,14 @@ struct Label {
 /// Why the overlay is not to be trusted.
 enum class Doubt {
   kNone,
-  kNotSeen,      ///< no pose
-  kCarried,      ///< no tag of the machine has been seen for too long
-  kUncertain,    ///< the predicted error at the part is too large
-  kOutOfView,    ///< the step's parts are beside the picture
-  kOtherMachine  ///< tags of another machine are seen, and none of this one
+  kNotSeen,       ///< no pose
+  kCarried,       ///< no tag of the machine has been seen for too long
+  kUncertain,     ///< the predicted error at the part is too large
+  kOutOfView,     ///< the step's parts are beside the picture
+  kOtherMachine,  ///< tags of another machine are seen, and none of this one
+  kContradicted   ///< the tags that place the machine contradict others
 };
-inline constexpr std::size_t kDoubts = 6;
+inline constexpr std::size_t kDoubts = 7;
 std::string_view nameOf(Doubt doubt);
 
 /// What is drawn over a painting of a machine: the content of one step. A value; immutable once it
@@ -67,6 +68,7 @@ struct OverlayContent {
   hal::Image inset;  ///< the step drawn from the model, where nothing else is sure
   std::array<hal::Image, kDoubts> badges;  ///< by Doubt: why there is nothing on the machine
   bool showsInset = false;                 ///< always, not only in doubt
+  std::vector<int> cards;  ///< ids of tags that hands show: they stand on no other machine
 };
 
 }  // namespace pleinair::overlay

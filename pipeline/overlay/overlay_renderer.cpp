@@ -51,6 +51,7 @@ OverlayRenderer::OverlayRenderer(const gpu::ShaderLibrary& library, const scene:
   for (std::size_t i = 0; i < model().parts.size(); ++i) shapes_.push_back(shapeOf(model(), i));
   boxes_.resize(shapes_.size());
   hidden_.resize(shapes_.size());
+  contradictions_.emplace(scene, *machine_);
 }
 
 void OverlayRenderer::reset() {
@@ -128,10 +129,20 @@ void OverlayRenderer::findBoxes(const OverlayFrame& frame) {
   for (const Ghost& ghost : content_->ghosts) take(ghost.part, ghost.apartMetres);
 }
 
-PoseEvidence OverlayRenderer::evidenceOf(const OverlayFrame& frame, bool seesOtherMachine) const {
+/// Command cards are shown by hands, and stand on no machine.
+bool OverlayRenderer::seesOtherMachine(const OverlayFrame& frame) {
+  std::array<int, OtherMachine::kMostNeighbours> unknown{};
+  std::size_t count = 0;
+  for (const int id : frame.unknownTags) {
+    const bool isCard = std::ranges::find(content_->cards, id) != content_->cards.end();
+    if (!isCard && count < unknown.size()) unknown.at(count++) = id;
+  }
+  return other_.update(std::span(unknown).first(count), frame.isMachineSeen, frame.ar->captureTime);
+}
+
+PoseEvidence OverlayRenderer::evidenceOf(const OverlayFrame& frame) const {
   PoseEvidence evidence{.hasPose = frame.machine.has_value(),
                         .isSeen = frame.isMachineSeen,
-                        .seesOtherMachine = seesOtherMachine,
                         .partPx = HUGE_VAL,
                         .pxScale = pxScale_};
   if (!frame.machine) return evidence;
@@ -214,8 +225,9 @@ const gpu::Texture& OverlayRenderer::draw(const OverlayFrame& frame) {
   if (!began_) began_ = now;
   if (machine_) {
     findBoxes(frame);
-    const bool seesOther = other_.update(frame.unknownTags, frame.isMachineSeen, now);
-    const PoseEvidence evidence = evidenceOf(frame, seesOther);
+    PoseEvidence evidence = evidenceOf(frame);
+    evidence.seesOtherMachine = seesOtherMachine(frame);
+    evidence.isContradicted = contradictions_->update(*frame.tracked);
     state_ = {.trust = trust_.update(evidence, now), .predictedErrorPx = evidence.errorPx};
     judgeSize(evidence);
   } else {

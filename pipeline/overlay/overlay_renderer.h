@@ -23,6 +23,7 @@
 #include "pipeline/overlay/overlay_drawing.h"
 #include "pipeline/overlay/part_shape.h"
 #include "pipeline/overlay/pose_trust.h"
+#include "pipeline/overlay/tag_contradictions.h"
 #include "pipeline/scene/description/scene.h"
 #include "pipeline/scene/render/ar_frame.h"
 #include "pipeline/scene/render/scene_bodies.h"
@@ -32,12 +33,13 @@ namespace pleinair::overlay {
 
 /// A painted frame, to be drawn over.
 struct OverlayFrame {
-  const gpu::Texture* painted = nullptr;          ///< the style's picture, of any size, LINEAR
-  const scene::ArFrame* ar = nullptr;             ///< what was painted
-  const tracking::CameraModel* camera = nullptr;  ///< of pictures of the output's size
-  std::optional<scene::Body::Moment> machine;     ///< nothing: its pose is unknown
-  bool isMachineSeen = false;                     ///< a tag of it, in this frame
-  std::span<const int> unknownTags;               ///< ids in this frame that the scene has not
+  const gpu::Texture* painted = nullptr;              ///< the style's picture, of any size, LINEAR
+  const scene::ArFrame* ar = nullptr;                 ///< what was painted
+  const tracking::CameraModel* camera = nullptr;      ///< of pictures of the output's size
+  std::optional<scene::Body::Moment> machine;         ///< nothing: its pose is unknown
+  bool isMachineSeen = false;                         ///< a tag of it, in this frame
+  std::span<const int> unknownTags;                   ///< ids in this frame that the scene has not
+  const tracking::TrackingResult* tracked = nullptr;  ///< of this frame
 };
 
 /// What became of the overlay in a frame.
@@ -79,7 +81,8 @@ class OverlayRenderer {
   const scene::Model& model() const { return *scene_.models[*machine_].model; }
   void takeLooks();
   void findBoxes(const OverlayFrame& frame);
-  PoseEvidence evidenceOf(const OverlayFrame& frame, bool seesOtherMachine) const;
+  bool seesOtherMachine(const OverlayFrame& frame);
+  PoseEvidence evidenceOf(const OverlayFrame& frame) const;
   void judgeSize(const PoseEvidence& evidence);
   void placePanel(hal::TimePoint now);
   glm::ivec2 insetPlace() const;
@@ -101,6 +104,7 @@ class OverlayRenderer {
   LineShapes leaders_;
   LabelLayout layout_;
   OtherMachine other_;
+  std::optional<TagContradictions> contradictions_;
   PoseTrust trust_;
   OverlayState state_;
 

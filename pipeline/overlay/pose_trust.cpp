@@ -43,6 +43,8 @@ std::string_view nameOf(Doubt doubt) {
       return "out of view";
     case Doubt::kOtherMachine:
       return "other machine";
+    case Doubt::kContradicted:
+      return "contradicted";
   }
   return {};
 }
@@ -68,6 +70,7 @@ Doubt PoseTrust::doubtOf(const PoseEvidence& evidence, hal::TimePoint now) {
   if (!evidence.isSeen && evidence.seesOtherMachine) return Doubt::kOtherMachine;
   if (!evidence.hasPose) return Doubt::kNotSeen;
   if (!seen_ || now - *seen_ > kCarriedFor) return Doubt::kCarried;
+  if (evidence.isContradicted) return Doubt::kContradicted;
   if (evidence.isOutOfView) return Doubt::kOutOfView;
   return Doubt::kNone;
 }

@@ -25,6 +25,7 @@ struct PoseEvidence {
   bool hasPose = false;
   bool isSeen = false;            ///< a tag of the machine was seen in this frame
   bool seesOtherMachine = false;  ///< OtherMachine::update()
+  bool isContradicted = false;    ///< TagContradictions::update()
   bool isOutOfView = false;       ///< all of the step's parts are beside the picture
   double errorPx = 0.0;           ///< predictedErrorPx() at the worst of the step's parts
   double partPx = 0.0;            ///< extent of the smallest of them in the image

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
+
 #include "pipeline/scene/description/model_source.h"
 #include "pipeline/scene/models/model.h"
 
@@ -130,6 +132,8 @@ struct Procedure {
   scene::ModelSource source;
   std::shared_ptr<const scene::Model> model;
   double unitMetres = 1.0;  ///< of the model's lengths
+  /// Rotates the model's axes so that z is up.
+  glm::dmat3 uprightFromModel{1.0};
   /// Files of the folder that it was read from, relative to it, sorted.
   std::vector<std::string> files;
   /// SHA-256 over names and contents of `files`, in hexadecimal; empty if it came from no folder.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "config/suggestion.h"
 #include "config/toml_reader.h"
@@ -86,7 +87,9 @@ class ProcedureReader {
     Procedure& procedure = reading_.procedure;
     procedure.source = scene::readSource(table, sources_.folder());
     if (const auto* file = std::get_if<scene::FileSource>(&procedure.source)) {
-      procedure.unitMetres = scene::readFileUnits(table, *file);
+      const glm::dmat3 frame(scene::readFileFrame(table, *file));
+      procedure.unitMetres = glm::length(frame[0]);
+      procedure.uprightFromModel = frame / procedure.unitMetres;
     }
     auto model = sources_.model(procedure.source);
     if (!model) {

@@ -50,10 +50,9 @@ struct ProcedureReading {
 ///     [model]
 ///     source = "machine.glb"         # or a built-in model, with its keys as in a scene file
 ///     units = "mm"                   # of a file that is not in metres; STL and OBJ need it
-///     [tools]
-///     hex_5 = { en = "5 mm hex key", de = "Innensechskant 5 mm" }
-///     [warnings]
-///     hot_oil = { level = "caution", en = "Hot oil", de = "Heißes Öl" }
+///     up = "z"                       # of a file whose up is another than usual: glTF and OBJ y,
+///     STL z [tools] hex_5 = { en = "5 mm hex key", de = "Innensechskant 5 mm" } [warnings] hot_oil
+///     = { level = "caution", en = "Hot oil", de = "Heißes Öl" }
 ///     [[step]]
 ///     id = "drain"
 ///     parts = ["oil_plug"]           # in focus: nodes of the model; "bolt_*" is all that begin so

@@ -10,6 +10,7 @@
 #include "hal/media/picture_file.h"
 #include "pipeline/digest/sha256.h"
 #include "pipeline/procedure/procedure_file.h"
+#include "pipeline/scene/description/model_files.h"
 #include "pipeline/scene/models/limits.h"
 
 namespace pleinair::procedure {
@@ -150,8 +151,16 @@ ProcedureReading readProcedureFolder(const fs::path& folder) {
   files.emplace_back(kProcedureFile);
   if (const auto* model = std::get_if<scene::FileSource>(&reading.procedure.source)) {
     files.push_back(fs::relative(model->path, folder).string());
+    const auto beside = scene::filesBeside(model->path);  // a mistake in the model is told already
+    std::error_code failure;
+    const fs::path root = fs::canonical(folder, failure);
+    for (const fs::path& each : beside.value_or(std::vector<fs::path>())) {
+      files.push_back(fs::canonical(each, failure).lexically_relative(root).string());
+    }
   }
   std::ranges::sort(files);
+  const auto repeated = std::ranges::unique(files);  // a picture of a text may be a texture, too
+  files.erase(repeated.begin(), repeated.end());
   if (reading.faults.empty()) reading.procedure.hash = hashOf(folder, files, reading.faults);
   return reading;
 }

@@ -104,6 +104,29 @@ Removed removedBefore(const Procedure& procedure) {
   return removed;
 }
 
+/// A goto that leads back to a step whose part is off on every way to the goto. The step itself may
+/// be right on the usual way.
+void addGotoFaults(const Procedure& procedure, const std::string& file, std::size_t from,
+                   const Removed& removed, std::vector<ConfigError>& faults) {
+  const std::set<std::size_t> off = after(procedure.steps[from], removed.onEvery[from]);
+  for (const auto& [outcome, to] : procedure.steps[from].next) {
+    if (to == kEnd || to == from || to == from + 1) continue;
+    const Step& step = procedure.steps[to];
+    for (const std::size_t part : step.parts) {
+      const bool isFitted = std::ranges::find(step.fits, part) != step.fits.end();
+      // On every way: told at that step.
+      const bool isTold = removed.onEvery[to].contains(part);
+      if (isFitted || isTold || !off.contains(part)) continue;
+      faults.push_back(
+          faultAt(procedure, from, file,
+                  fmt::format("\"{}\" leads to \"{}\", whose \"{}\" is off by then",
+                              nameOf(outcome), step.id, procedure.model->parts[part].name),
+                  "a way on which a step puts the part back, in fits"));
+      break;
+    }
+  }
+}
+
 void addPartFaults(const Procedure& procedure, const std::string& file,
                    const std::vector<bool>& isReached, std::vector<ConfigError>& faults) {
   if (!procedure.model) return;
@@ -111,6 +134,7 @@ void addPartFaults(const Procedure& procedure, const std::string& file,
   const auto nameOfPart = [&](std::size_t part) { return procedure.model->parts[part].name; };
   for (std::size_t i = 0; i < procedure.steps.size(); ++i) {
     if (!isReached[i]) continue;
+    addGotoFaults(procedure, file, i, removed, faults);
     const Step& step = procedure.steps[i];
     for (const std::size_t part : step.parts) {
       const bool isFitted = std::ranges::find(step.fits, part) != step.fits.end();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace pleinair::procedure {
 namespace {
@@ -40,7 +41,8 @@ constexpr std::array<Words, 8> kWords{{
      .tagCovered = "The tag is covered",
      .moveCloser = "Place too uncertain: move closer",
      .notInView = "The part is not in view",
-     .otherTag = "Tag of another machine"},
+     .otherTag = "Tag of another machine",
+     .tagsContradict = "Tags contradict each other: check sizes and places"},
     {.language = "de",
      .step = "Schritt",
      .tools = "Werkzeug",
@@ -73,7 +75,8 @@ constexpr std::array<Words, 8> kWords{{
      .tagCovered = "Tag verdeckt",
      .moveCloser = "Lage zu ungenau: näher herangehen",
      .notInView = "Teil nicht im Bild",
-     .otherTag = "Tag einer anderen Maschine"},
+     .otherTag = "Tag einer anderen Maschine",
+     .tagsContradict = "Tags widersprechen sich: Größen und Plätze prüfen"},
     {.language = "es",
      .step = "Paso",
      .tools = "Herramientas",
@@ -106,7 +109,8 @@ constexpr std::array<Words, 8> kWords{{
      .tagCovered = "La etiqueta está tapada",
      .moveCloser = "Posición incierta: acérquese",
      .notInView = "La pieza no está a la vista",
-     .otherTag = "Etiqueta de otra máquina"},
+     .otherTag = "Etiqueta de otra máquina",
+     .tagsContradict = "Las etiquetas se contradicen: compruebe tamaños y lugares"},
     {.language = "fr",
      .step = "Étape",
      .tools = "Outils",
@@ -139,7 +143,8 @@ constexpr std::array<Words, 8> kWords{{
      .tagCovered = "Le repère est masqué",
      .moveCloser = "Position incertaine : approchez-vous",
      .notInView = "La pièce n’est pas en vue",
-     .otherTag = "Repère d’une autre machine"},
+     .otherTag = "Repère d’une autre machine",
+     .tagsContradict = "Les repères se contredisent : vérifier tailles et places"},
     {.language = "it",
      .step = "Passo",
      .tools = "Attrezzi",
@@ -172,7 +177,8 @@ constexpr std::array<Words, 8> kWords{{
      .tagCovered = "Il tag è coperto",
      .moveCloser = "Posizione incerta: avvicinarsi",
      .notInView = "Il pezzo non è in vista",
-     .otherTag = "Tag di un’altra macchina"},
+     .otherTag = "Tag di un’altra macchina",
+     .tagsContradict = "I tag si contraddicono: controllare misure e posti"},
     {.language = "nl",
      .step = "Stap",
      .tools = "Gereedschap",
@@ -205,7 +211,8 @@ constexpr std::array<Words, 8> kWords{{
      .tagCovered = "De tag is bedekt",
      .moveCloser = "Plaats te onzeker: kom dichterbij",
      .notInView = "Het onderdeel is niet in beeld",
-     .otherTag = "Tag van een andere machine"},
+     .otherTag = "Tag van een andere machine",
+     .tagsContradict = "Tags spreken elkaar tegen: controleer maten en plaatsen"},
     {.language = "pl",
      .step = "Krok",
      .tools = "Narzędzia",
@@ -238,7 +245,8 @@ constexpr std::array<Words, 8> kWords{{
      .tagCovered = "Znacznik jest zasłonięty",
      .moveCloser = "Położenie niepewne: podejdź bliżej",
      .notInView = "Części nie ma w kadrze",
-     .otherTag = "Znacznik innej maszyny"},
+     .otherTag = "Znacznik innej maszyny",
+     .tagsContradict = "Znaczniki są sprzeczne: sprawdź rozmiary i miejsca"},
     {.language = "pt",
      .step = "Passo",
      .tools = "Ferramentas",
@@ -271,7 +279,8 @@ constexpr std::array<Words, 8> kWords{{
      .tagCovered = "A etiqueta está tapada",
      .moveCloser = "Posição incerta: aproxime-se",
      .notInView = "A peça não está à vista",
-     .otherTag = "Etiqueta de outra máquina"},
+     .otherTag = "Etiqueta de outra máquina",
+     .tagsContradict = "As etiquetas contradizem-se: verifique tamanhos e lugares"},
 }};
 
 }  // namespace
@@ -284,6 +293,15 @@ const Words& wordsIn(std::string_view language) {
 
 std::span<const Words> allWords() {
   return kWords;
+}
+
+std::string withDecimals(std::string text, std::string_view language) {
+  if (wordsIn(language).language == kWords.front().language) return text;
+  const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+  for (std::size_t i = 1; i + 1 < text.size(); ++i) {
+    if (text[i] == '.' && isDigit(text[i - 1]) && isDigit(text[i + 1])) text[i] = ',';
+  }
+  return text;
 }
 
 std::string_view wordOf(const Words& words, Outcome outcome) {

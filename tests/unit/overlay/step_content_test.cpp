@@ -7,6 +7,7 @@
 #include <string>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "config/config_error.h"
@@ -189,6 +190,22 @@ TEST_F(StepContentTest, AMachineOfOtherUnitsIsRefused) {
   EXPECT_NO_THROW(putMachine(scene, 1, procedure));
   procedure.unitMetres = 0.001;
   EXPECT_THROW(putMachine(scene, 1, procedure), hal::Failure);
+}
+
+TEST_F(StepContentTest, AModelThatStandsInForAFileIsUprightAsTheFileSays) {
+  procedure::Procedure procedure = procedure::loadProcedure(kFolder);
+  procedure.uprightFromModel =
+      glm::dmat3(glm::rotate(glm::dmat4(1.0), glm::radians(90.0), glm::dvec3(1.0, 0.0, 0.0)));
+  const auto upIn = [&](scene::Scene scene) {
+    const glm::dmat4 before = scene.models.at(1).attachFromModel;
+    putMachine(scene, 1, procedure);
+    return glm::dvec3(glm::inverse(before) * scene.models.at(1).attachFromModel *
+                      glm::dvec4(0.0, 1.0, 0.0, 0.0));
+  };
+  EXPECT_NEAR(upIn(gearboxScene()).z, 1.0, 1e-12);
+  scene::Scene ofFile = gearboxScene();
+  ofFile.models.at(1).source = scene::FileSource{"gearbox.glb"};
+  EXPECT_NEAR(upIn(ofFile).y, 1.0, 1e-12) << "the scene says its own";
 }
 
 TEST_F(StepContentTest, TheMachineIsFoundByNameOrSource) {

@@ -1,4 +1,7 @@
+#include <array>
+#include <cstring>
 #include <fstream>
+#include <utility>
 
 #include <gmock/gmock.h>
 
@@ -21,6 +24,27 @@ class ProcedureFolderTest : public testing::Test {
     write(path("procedure.toml"), kHead + "[[step]]\nid = \"a\"\nparts = [\"oil_plug\"]\n");
     write(path("en.md"), "# T\n## a: A\n");
   }
+  /// A triangle whose data is in files beside the model's.
+  void writeGltf() {
+    const std::array<float, 9> corners{0, 0, 0, 1, 0, 0, 0, 0, 0.5F};
+    std::string bytes(sizeof corners, '\0');
+    std::memcpy(bytes.data(), corners.data(), sizeof corners);
+    write(path("plate.bin"), bytes);
+    write(path("paint.png"), "a texture that nothing shows");
+    write(path("plate.gltf"),
+          R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
+          R"("nodes":[{"name":"plate","mesh":0}],)"
+          R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+          R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",)"
+          R"("min":[0,0,0],"max":[1,0,0.5]}],)"
+          R"("bufferViews":[{"buffer":0,"byteLength":36}],)"
+          R"("buffers":[{"uri":"plate.bin","byteLength":36}],"images":[{"uri":"paint.png"}]})");
+  }
+  void writeProcedureOf(const std::string& model) {
+    write(path("procedure.toml"), "name = \"p\"\nversion = \"1\"\nlanguages = [\"en\"]\n[model]\n" +
+                                      model + "\n[[step]]\nid = \"a\"\n");
+    write(path("en.md"), "# T\n## a: A\n");
+  }
   std::filesystem::path path(const char* name) const { return folder_.path() / name; }
 
   support::TemporaryFolder folder_;
@@ -34,6 +58,46 @@ TEST_F(ProcedureFolderTest, IsReadWithItsFilesAndHash) {
   EXPECT_EQ(loadProcedure(folder_.path()).hash, procedure.hash);
   write(path("en.md"), "# T\n## a: B\n");
   EXPECT_NE(loadProcedure(folder_.path()).hash, procedure.hash) << "another text";
+}
+
+TEST_F(ProcedureFolderTest, FilesBesideAModelAreInTheHash) {
+  writeGltf();
+  writeProcedureOf("source = \"plate.gltf\"");
+  const Procedure procedure = loadProcedure(folder_.path());
+  EXPECT_THAT(procedure.files,
+              ElementsAre("en.md", "paint.png", "plate.bin", "plate.gltf", "procedure.toml"));
+  write(path("paint.png"), "another texture");
+  const std::string painted = loadProcedure(folder_.path()).hash;
+  EXPECT_NE(painted, procedure.hash);
+  std::string bytes(36, '\0');
+  write(path("plate.bin"), bytes);
+  EXPECT_NE(loadProcedure(folder_.path()).hash, painted) << "another buffer";
+}
+
+TEST_F(ProcedureFolderTest, MaterialsBesideAMeshAreInTheHash) {
+  write(path("plate.obj"), "mtllib my steel.mtl\no plate\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write(path("my steel.mtl"), "newmtl steel\nKd 0.5 0.5 0.5\n");
+  writeProcedureOf("source = \"plate.obj\"\nunits = \"mm\"");
+  const Procedure procedure = loadProcedure(folder_.path());
+  EXPECT_THAT(procedure.files, ElementsAre("en.md", "my steel.mtl", "plate.obj", "procedure.toml"));
+  write(path("my steel.mtl"), "newmtl steel\nKd 0.5 0.5 0.6\n");
+  EXPECT_NE(loadProcedure(folder_.path()).hash, procedure.hash);
+}
+
+TEST_F(ProcedureFolderTest, AModelsUpIsSaidOrUsual) {
+  writeGltf();
+  const auto upOf = [&](const std::string& keys) {
+    writeProcedureOf("source = \"plate.gltf\"\n" + keys);
+    const Procedure procedure = loadProcedure(folder_.path());
+    // The file's y, which glTF readers turn to z, or its z, which they turn to −y.
+    return std::pair(procedure.uprightFromModel * glm::dvec3(0, 0, 1),
+                     procedure.uprightFromModel * glm::dvec3(0, -1, 0));
+  };
+  EXPECT_NEAR(upOf("").first.z, 1.0, 1e-12);
+  EXPECT_NEAR(upOf("up = \"y\"").first.z, 1.0, 1e-12);
+  EXPECT_NEAR(upOf("up = \"z\"\nunits = \"mm\"").second.z, 1.0, 1e-12);
+  writeProcedureOf("source = \"plate.gltf\"\nup = \"x\"");
+  EXPECT_THAT(messagesOf(readProcedureFolder(folder_.path())), HasSubstr("model.up: found"));
 }
 
 TEST_F(ProcedureFolderTest, WhatIsMissingIsSaid) {

@@ -42,7 +42,7 @@ torque = "25 ± 2 Nm"
 [[step]]
 id = "gap"
 check = { kind = "value", unit = "mm", min = 0.1, max = 0.3 }
-goto = { low = "drain", high = "end" }
+goto = { low = "gap", high = "end" }
 [[step]]
 id = "look"
 fits = ["plug"]
@@ -71,7 +71,7 @@ next = "end"
   const Step& gap = procedure.steps[1];
   EXPECT_EQ(limitsText(*gap.check), "0.1 … 0.3 mm");
   EXPECT_EQ(gap.text.at("de").question, "Spalt oben");
-  EXPECT_THAT(gap.next, ElementsAre(Pair(Outcome::kOk, 2U), Pair(Outcome::kLow, 0U),
+  EXPECT_THAT(gap.next, ElementsAre(Pair(Outcome::kOk, 2U), Pair(Outcome::kLow, 1U),
                                     Pair(Outcome::kHigh, kEnd)));
   EXPECT_EQ(procedure.steps[2].check->comparison, "plug.png");
   EXPECT_THAT(procedure.steps[2].parts, ElementsAre(0)) << "what it moves is what it shows";

@@ -40,6 +40,19 @@ TEST(StepView, LooksAtThePartFromItsSideWithTheMachineUpright) {
   EXPECT_LT(seen(front, {0.0, -0.1, 0.0}).z, seen(front, {0.0, 0.0, 0.0}).z);
 }
 
+TEST(StepView, AModelWhoseUpIsAnotherAxisStandsUpright) {
+  const scene::BoundingSphere whole{.centre = {0.0, 0.1, 0.0}, .radiusMetres = 0.2};
+  const scene::BoundingSphere part{.centre = {0.05, 0.05, 0.1}, .radiusMetres = 0.01};
+  const glm::dmat3 zFromY(1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0);
+  for (const ViewAngles& view : candidateViews()) {
+    const glm::dmat4 camera = cameraFromModel(view, part, whole, zFromY);
+    const glm::dvec3 at = seen(camera, part.centre);
+    const glm::dvec3 above = seen(camera, part.centre + glm::dvec3(0.0, 0.01, 0.0));
+    EXPECT_LT(above.y, at.y);
+    EXPECT_NEAR(above.x, at.x, 1e-9);
+  }
+}
+
 TEST(StepView, KeepsTheChosenParts) {
   const scene::Model gearbox = scene::gearboxModel({});
   const scene::Model chosen = withParts(gearbox, std::array<std::size_t, 2>{1, 3});

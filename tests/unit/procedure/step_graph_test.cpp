@@ -59,6 +59,25 @@ TEST(StepGraph, PartsThatAreOffOrOnAlreadyAreFound) {
       "");
 }
 
+TEST(StepGraph, AGotoBackToAStepWhosePartIsOffIsFound) {
+  const std::string toml =
+      "[[step]]\nid = \"a\"\nremoves = [\"cover\"]\n[[step]]\nid = \"b\"\n"
+      "check = { kind = \"value\", unit = \"mm\", min = 1 }\ngoto = { low = \"a\" }\n"
+      "[[step]]\nid = \"c\"\nfits = [\"cover\"]\n";
+  const auto messagesWith = [&](const std::string& steps) {
+    return messagesOf(readSteps(steps, {"a", "b", "c"}, "? Gap"));
+  };
+  EXPECT_THAT(
+      messagesWith(toml),
+      HasSubstr("p.toml:10: step[1]: \"low\" leads to \"a\", whose \"cover\" is off by then"));
+  std::string back = toml;  // by way of the step that fits it
+  back.replace(back.find("low = \"a\""), 9, "low = \"c\"");
+  EXPECT_THAT(messagesWith(back), testing::Not(HasSubstr("is off by then")));
+  std::string again = toml;  // the step that is done again is none that was left
+  again.replace(again.find("low = \"a\""), 9, "low = \"b\"");
+  EXPECT_THAT(messagesWith(again), testing::Not(HasSubstr("is off by then")));
+}
+
 TEST(StepGraph, APartThatOneWayLeavesOnMayBeShown) {
   const std::string steps =
       "[[step]]\nid = \"a\"\ncheck = \"photo\"\n[[step]]\nid = \"b\"\nremoves = [\"cover\"]\n"

@@ -245,8 +245,15 @@ TEST_F(Tuning, RepeatsOnlyWhatCanBeHeld) {
 TEST_F(Tuning, HelpNamesEveryKey) {
   for (const std::string key : {"Tab", "Down", "Left", "Right", "Shift", "Backspace", "l", "t", "v",
                                 "Space", "s", "f", "h", "?", "q", "Escape"}) {
-    EXPECT_THAT(LiveTuning::help(), HasSubstr(key));
+    EXPECT_THAT(tuning_.help(), HasSubstr(key));
   }
+}
+
+TEST_F(Tuning, HelpNamesTheKeysOfAProcedureFirst) {
+  tuning_.setKeyFilter([](const hal::KeyPressed& key) { return key.name == "pagedown"; },
+                       "Page Down\tends the step");
+  EXPECT_THAT(tuning_.help(), testing::StartsWith("Page Down\tends the step\nTab, Down\t"));
+  EXPECT_EQ(press("pagedown"), Request::kNone);
 }
 
 /// Brush and pen, with a view and values of their own.

@@ -1,4 +1,4 @@
-#include "firmware_app/live/live_overlay.h"
+#include "firmware_app/repair_station/live_overlay.h"
 
 #include <algorithm>
 #include <chrono>
@@ -26,8 +26,12 @@ bool hasSameParts(const scene::Model& a, const scene::Model& b) {
 }  // namespace
 
 LiveOverlay::LiveOverlay(const scene::Model* machine, std::filesystem::path folder,
-                         hal::FrameSize output, bool showsInset)
-    : machine_(machine), folder_(std::move(folder)), output_(output), showsInset_(showsInset) {}
+                         hal::FrameSize output, bool showsInset, std::vector<int> cards)
+    : machine_(machine),
+      folder_(std::move(folder)),
+      output_(output),
+      showsInset_(showsInset),
+      cards_(std::move(cards)) {}
 
 void LiveOverlay::notify(const std::string& text, hal::TimePoint now) {
   notice_ = text;
@@ -38,12 +42,29 @@ std::shared_ptr<const overlay::OverlayContent> LiveOverlay::update(StepShown sho
                                                                    hal::TimePoint now) {
   if (now >= noticeEnds_) notice_.clear();
   shown.notice = notice_;
-  if (last_ && isSame(*last_, shown)) return nullptr;
+  Content made;
+  if (making_.valid() && making_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+    made = content_ = making_.get();
+  }
+  // What has changed meanwhile is made next: the newest state, not those in between.
+  if (making_.valid() || (last_ && isSame(*last_, shown))) return made;
   const bool keepsInset = last_ && content_ && isSameStep(*last_, shown);
+  last_ = std::move(shown);
+  if (!content_) return content_ = make(*last_, nullptr);
+  making_ = std::async(std::launch::async,
+                       [this, step = *last_, before = keepsInset ? content_ : nullptr] {
+                         return make(step, before);
+                       });
+  return made;
+}
+
+/// Any thread. `before`: the same step's, whose inset is kept; null: another step's.
+LiveOverlay::Content LiveOverlay::make(const StepShown& shown, const Content& before) const {
   const scene::Model& parts = *shown.procedure->model;
   overlay::OverlayContent content =
-      stepContent(shown, parts, folder_, output_, keepsInset ? &content_->inset : nullptr);
+      stepContent(shown, parts, folder_, output_, before ? &before->inset : nullptr);
   content.showsInset = showsInset_;
+  content.cards = cards_;
   if (machine_ != nullptr && !hasSameParts(*machine_, parts)) {
     content.looks.clear();
     content.ghosts.clear();
@@ -51,9 +72,7 @@ std::shared_ptr<const overlay::OverlayContent> LiveOverlay::update(StepShown sho
     content.labels.clear();
     content.showsInset = true;
   }
-  last_ = std::move(shown);
-  content_ = std::make_shared<const overlay::OverlayContent>(std::move(content));
-  return content_;
+  return std::make_shared<const overlay::OverlayContent>(std::move(content));
 }
 
 }  // namespace pleinair::app

@@ -7,7 +7,7 @@
 
 #include <glm/mat4x4.hpp>
 
-#include "firmware_app/live/command_cards.h"
+#include "firmware_app/repair_station/command_cards.h"
 #include "hal/clock.h"
 #include "hal/image.h"
 #include "pipeline/record/record_entry.h"

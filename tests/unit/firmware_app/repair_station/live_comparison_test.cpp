@@ -5,7 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gmock/gmock.h>
 
-#include "firmware_app/live/live_procedure.h"
+#include "firmware_app/repair_station/live_procedure.h"
 #include "hal/media/picture_file.h"
 #include "pipeline/record/record_check.h"
 #include "pipeline/scene/models/model.h"
@@ -72,8 +72,12 @@ class LiveComparisonTest : public testing::Test {
     obey(StepCommandKind::kNext);
     ASSERT_TRUE(live_->takeStillRequest());
     live_->putStill(picture(frequency), place);
+    live_->finish();
   }
-  void obey(StepCommandKind kind) { live_->obey({.kind = kind, .operatorName = {}}, "pedal"); }
+  void obey(StepCommandKind kind) {
+    live_->obey({.kind = kind, .operatorName = {}}, "pedal");
+    live_->finish();
+  }
   std::string step() const { return live_->status().step; }
   std::string notice() { return live_->takeNotice().value_or(""); }
   /// The outcomes in the record, with who found them.

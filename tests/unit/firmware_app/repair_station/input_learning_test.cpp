@@ -1,4 +1,4 @@
-#include "firmware_app/live/input_learning.h"
+#include "firmware_app/repair_station/input_learning.h"
 
 #include <gmock/gmock.h>
 #include <linux/input-event-codes.h>

@@ -1,4 +1,4 @@
-#include "firmware_app/live/command_cards.h"
+#include "firmware_app/repair_station/command_cards.h"
 
 #include <chrono>
 #include <vector>

@@ -1,10 +1,8 @@
-#include "firmware_app/live/step_inputs.h"
+#include "firmware_app/repair_station/step_inputs.h"
 
 #include <algorithm>
 #include <iterator>
 #include <utility>
-
-#include <fmt/format.h>
 
 namespace pleinair::app {
 namespace {
@@ -62,21 +60,21 @@ StepInputs::Taken StepInputs::poll() {
   if (queue_ != nullptr) {
     queued_.clear();
     queue_->take(queued_);
-    for (const procedure::StepCommand& each : queued_) obey(each, "the status server");
+    for (const procedure::StepCommand& each : queued_) obey(each, std::string(notices().theServer));
   }
   buttons_.takeProblems(taken_.problems);
   std::vector<hal::InputDevices::Change> changes;
   buttons_.takeChanges(changes);
   for (const hal::InputDevices::Change& each : changes) {
-    taken_.notices.push_back(fmt::format("{} {}", nameOf(each.index),
-                                         each.isThere ? "is ready" : "is gone: plug it in"));
+    taken_.notices.push_back(procedure::filled(
+        each.isThere ? notices().inputReady : notices().inputGone, nameOf(each.index)));
   }
   return std::exchange(taken_, {});
 }
 
 void StepInputs::see(std::span<const ShownTag> tags, hal::TimePoint captured) {
   if (std::exchange(seen_, captured) == captured) return;
-  if (const auto command = cards_.see(tags, captured)) obey(*command, "a card");
+  if (const auto command = cards_.see(tags, captured)) obey(*command, std::string(notices().aCard));
 }
 
 void StepInputs::obey(const procedure::StepCommand& command, const std::string& source) {

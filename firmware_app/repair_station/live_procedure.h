@@ -2,21 +2,22 @@
 
 #include <chrono>
 #include <filesystem>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 
-#include "firmware_app/live/pending_stills.h"
 #include "firmware_app/overlay/step_content.h"
+#include "firmware_app/repair_station/pending_stills.h"
+#include "firmware_app/repair_station/step_worker.h"
 #include "hal/clock.h"
 #include "hal/error.h"
 #include "hal/image.h"
 #include "hal/key_pressed.h"
+#include "pipeline/inspection/part_inspection.h"
 #include "pipeline/inspection/template_file.h"
+#include "pipeline/procedure/notices.h"
 #include "pipeline/procedure/step_command.h"
 #include "pipeline/procedure/stepper.h"
-#include "pipeline/record/work_session.h"
 #include "pipeline/runtime/procedure_status.h"
 
 namespace pleinair::app {
@@ -37,6 +38,9 @@ struct LiveProcedureOptions {
 /// Page Down, which pedals and presenters send, ends a step; Page Up goes back; y and n answer;
 /// digits and Enter give a value; Enter signs off at the end, Shift-X before it. Page Down answers
 /// no question: a check is not passed by going on.
+///
+/// A StepWorker writes the record. A step is left once its line is on the disk, which poll() sees;
+/// until then further answers are refused with a notice.
 ///
 /// Of two inputs at once one counts: after an answer or a step back, other inputs are ignored for
 /// kOneAtATime, for whoever used them has not seen the new step.
@@ -65,68 +69,82 @@ class LiveProcedure {
   /// What the current step shows.
   StepShown shown() const;
   /// What has happened since the last call, for the caption and the log: a check that failed, a
-  /// full disk, a mistake in an edited procedure.
+  /// full disk, a mistake in an edited procedure. In the procedure's language, but for what the
+  /// system says.
   std::optional<std::string> takeNotice();
+  /// The language in force.
+  const std::string& language() const { return options_.language; }
 
   /// The version in force.
   const procedure::Procedure& procedure() const { return stepper().procedure(); }
 
   /// Whether a still of the camera is wanted, asked once for each.
   bool takeStillRequest();
-  /// Takes the still that was wanted: saves it, and ends the step that waited for it.
+  /// Takes the still that was wanted: it is saved, and ends the step that waited for it.
   /// `place`: where the machine is in it, if that is known.
-  void putStill(const hal::Result<hal::Image>& still,
+  void putStill(hal::Result<hal::Image> still,
                 const std::optional<inspection::TemplatePose>& place = {});
 
-  /// Reads the procedure again when its files have changed, at most twice a second.
+  /// Takes what the worker has done, and reads the procedure again when its files have changed, at
+  /// most twice a second.
   void poll();
+  /// Waits until all that was answered is on the disk, or has failed: for the end, and for tests.
+  void finish();
 
   /// Any thread.
   runtime::ProcedureStatus status() const;
 
  private:
-  void begin(std::shared_ptr<const procedure::Procedure> procedure);
-  const procedure::Stepper& stepper() const;
-  std::string requestAtEnd() const;
-  bool isSignedOff() const { return session_ && session_->record().isSignedOff(); }
+  const SessionView& view() const { return worker_->view(); }
+  const procedure::Stepper& stepper() const { return view().stepper; }
+  bool isSignedOff() const { return view().isSignedOff; }
+  bool isRecorded() const { return !options_.records.empty(); }
   bool pressForStep(const hal::KeyPressed& key);
   bool pressForValue(const hal::KeyPressed& key);
   bool obeyForStep(const procedure::StepCommand& command);
   bool isTooSoon(const std::string& source);
+  bool isMoving();
   void goOn();
   bool say(procedure::StepCommandKind word);
   void giveValue();
   void answer(const procedure::Answer& answer);
   void wantStill(std::string when, std::optional<procedure::Answer> answer = std::nullopt);
-  void wantStillBefore();
   void commit(const procedure::Answer& answer, const std::string& by = {});
-  bool comparesByItself() const;
-  void compare(const hal::Image& still, const std::optional<inspection::TemplatePose>& place);
+  void beginMove();
+  void endMove(const hal::Result<record::Advance>& advance, procedure::Outcome outcome);
+  void saveStill(const PendingStill& pending, hal::Image still);
+  void compare(const PendingStill& pending, hal::Image still,
+               const inspection::TemplatePose& place);
+  void endComparison(const inspection::Inspection& inspection, const std::string& step);
   std::optional<record::PoseQuality> poseNow() const;
   void goBack();
   void changeOperator(const std::string& name);
   void signOff();
-  void note(const std::string& text) { notice_ = text; }
+  void readAgain();
+  void note(std::string_view text) { notice_ = text; }
+  void noteFailure(const hal::Error& error, bool isStill);
+  const procedure::Notices& notices() const { return procedure::noticesIn(options_.language); }
   void publish();
   std::filesystem::file_time_type newestFile() const;
 
   LiveProcedureOptions options_;
   const hal::Clock& clock_;
-  std::optional<record::WorkSession> session_;
-  std::optional<procedure::Stepper> unrecorded_;  // without a record
-  std::string typed_;                             // digits of a value
+  std::string typed_;  // digits of a value
   std::optional<std::string> notice_;
   PendingStills stills_;
   std::optional<record::PoseQuality> pose_;
   hal::TimePoint located_;               // when pose_ was told
   bool mayJudge_ = false;                // the program was uncertain at this step
+  bool moves_ = false;                   // an answer, a way back or a sign-off is being written
+  bool isReading_ = false;               // the procedure, again
   std::string source_;                   // of the input that is handled
   std::string moveSource_;               // of the last answer or step back
   std::optional<hal::TimePoint> moved_;  // when it was
   hal::TimePoint polled_;
   std::filesystem::file_time_type read_;
   mutable std::mutex mutex_;
-  runtime::ProcedureStatus status_;  // under mutex_
+  runtime::ProcedureStatus status_;   // under mutex_
+  std::optional<StepWorker> worker_;  // the last member: what it is given may use the others
 };
 
 }  // namespace pleinair::app

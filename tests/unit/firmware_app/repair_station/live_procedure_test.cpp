@@ -1,6 +1,9 @@
-#include "firmware_app/live/live_procedure.h"
+#include "firmware_app/repair_station/live_procedure.h"
 
+#include <algorithm>
 #include <fstream>
+#include <functional>
+#include <iterator>
 
 #include <gmock/gmock.h>
 
@@ -18,6 +21,11 @@ using testing::HasSubstr;
 
 void write(const fs::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
+}
+
+std::string textOf(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 class LiveProcedureTest : public testing::Test {
@@ -56,6 +64,7 @@ class LiveProcedureTest : public testing::Test {
       const std::size_t end = std::min(keys.find(' ', at), keys.size());
       EXPECT_TRUE(procedure.press({.name = keys.substr(at, end - at)}))
           << keys.substr(at, end - at);
+      procedure.finish();
       at = end + 1;
     }
   }
@@ -86,6 +95,7 @@ TEST_F(LiveProcedureTest, KeysStepThroughItToTheSignOff) {
   EXPECT_FALSE(live.takeStillRequest()) << "once";
   EXPECT_EQ(live.status().step, "shoot") << "until the still is saved";
   live.putStill(picture());
+  live.finish();
   EXPECT_EQ(live.status().step, "end");
   EXPECT_THAT(live.text(), HasSubstr("Enter: sign off"));
   press(live, "return");
@@ -135,6 +145,7 @@ TEST_F(LiveProcedureTest, GoesOnWithTheRecordThatIsNotSignedOff) {
     EXPECT_EQ(live.status().record, record);
     EXPECT_EQ(live.status().step, "gap");
     EXPECT_TRUE(live.press({.name = "x", .shift = true}));
+    live.finish();
   }
   LiveProcedure live = begin();
   EXPECT_NE(live.status().record, record) << "that one was signed off";
@@ -150,6 +161,7 @@ TEST_F(LiveProcedureTest, IsReadAgainWhenItIsSaved) {
                         fs::file_time_type::clock::now() + std::chrono::seconds(limit.size()));
     clock_.advance(std::chrono::seconds(1));
     live.poll();
+    live.finish();
     return live.takeNotice().value_or("");
   };
   EXPECT_EQ(save("max = 3"), "the procedure was read again");
@@ -172,8 +184,10 @@ TEST_F(LiveProcedureTest, StillsOfStepsAreTakenBeforeAndAfterEach) {
   press(live, "pagedown");
   EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("is awaited"));
   live.putStill(picture());
+  live.finish();
   EXPECT_TRUE(live.takeStillRequest());
   live.putStill(picture());
+  live.finish();
   EXPECT_EQ(live.status().step, "look");
   const auto reading = record::checkRecordFile(live.status().record);
   std::vector<std::string> lines;
@@ -195,10 +209,12 @@ TEST_F(LiveProcedureTest, ACameraThatGivesNoPictureKeepsTheStep) {
   EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("gives no picture"));
   EXPECT_EQ(live.status().step, "shoot");
   live.putStill(picture());  // late
+  live.finish();
   EXPECT_EQ(live.status().step, "shoot");
   press(live, "pagedown");
   EXPECT_TRUE(live.takeStillRequest());
   live.putStill(picture());
+  live.finish();
   EXPECT_EQ(live.status().step, "end");
 }
 
@@ -209,6 +225,7 @@ TEST_F(LiveProcedureTest, AStillOfAStepThatWasLeftIsNoneOfTheNext) {
   press(live, "pagedown");
   EXPECT_EQ(live.status().step, "look");
   live.putStill(picture());  // asked for at the step before
+  live.finish();
   const auto reading = record::checkRecordFile(live.status().record);
   for (const auto& entry : reading->entries) {
     EXPECT_FALSE(std::holds_alternative<record::StillTaken>(entry.event));
@@ -233,6 +250,7 @@ TEST_F(LiveProcedureTest, PointsAtNothingOnceItIsSignedOff) {
   LiveProcedure live = begin();
   EXPECT_EQ(live.shown().step, 0U);
   EXPECT_TRUE(live.press({.name = "x", .shift = true}));
+  live.finish();
   EXPECT_EQ(live.shown().step, procedure::kEnd);
 }
 
@@ -247,12 +265,14 @@ TEST_F(LiveProcedureTest, ADiskThatIsFullAtAStillKeepsTheStepUntilThereIsSpace) 
       noise.plane(0)[i] = static_cast<std::uint8_t>(i * i / 7);
     }
     live.putStill(noise);
+    live.finish();
     EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("too large"));
     EXPECT_EQ(live.status().step, "shoot");
   }
   EXPECT_EQ(record::checkRecordFile(live.status().record)->entries.size(), lines);
   press(live, "pagedown");
   live.putStill(picture());
+  live.finish();
   EXPECT_EQ(live.status().step, "end");
   press(live, "return");
   EXPECT_TRUE(record::checkRecordFile(live.status().record)->findings.empty());
@@ -268,8 +288,10 @@ TEST_F(LiveProcedureTest, OperatorsWhoTakeOverAreInTheRecord) {
   clock_.advance(std::chrono::seconds(1));
   EXPECT_TRUE(
       live.obey({.kind = procedure::StepCommandKind::kOperator, .operatorName = "Li"}, "a card"));
+  live.finish();
   press(live, "y");
   EXPECT_TRUE(live.press({.name = "x", .shift = true}));
+  live.finish();
   const auto reading = record::checkRecordFile(live.status().record);
   std::vector<std::string> names;
   for (const auto& entry : reading->entries) {
@@ -278,6 +300,63 @@ TEST_F(LiveProcedureTest, OperatorsWhoTakeOverAreInTheRecord) {
     }
   }
   EXPECT_THAT(names, testing::ElementsAre("Kim", "Li"));
+}
+
+TEST_F(LiveProcedureTest, AStepIsLeftOnceItsLineIsOnTheDisk) {
+  LiveProcedure live = begin();
+  EXPECT_TRUE(live.press({.name = "pagedown"}));
+  EXPECT_EQ(live.status().step, "open") << "until it is on the disk, and poll() has seen that";
+  EXPECT_TRUE(live.press({.name = "pagedown"}));
+  EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("being written"));
+  live.finish();
+  EXPECT_EQ(live.status().step, "look") << "the second press did not count";
+}
+
+TEST_F(LiveProcedureTest, LinesAreInTheOrderInWhichTheyWereGiven) {
+  LiveProcedure live = begin();
+  constexpr int kStills = 5;
+  for (int i = 0; i < kStills; ++i) {
+    EXPECT_TRUE(live.obey({.kind = procedure::StepCommandKind::kPhoto}, "pedal"));
+    EXPECT_TRUE(live.takeStillRequest());
+    // The first ones take longer to be coded.
+    const int side = 512 >> i;
+    live.putStill(hal::Image({.pixelFormat = hal::PixelFormat::kRgb8, .size = {side, side}}));
+  }
+  EXPECT_TRUE(live.press({.name = "pagedown"}));
+  live.finish();
+  std::vector<std::uint64_t> sizes;
+  const auto reading = record::checkRecordFile(live.status().record);
+  for (const auto& entry : reading->entries) {
+    const auto* still = std::get_if<record::StillTaken>(&entry.event);
+    if (still != nullptr) sizes.push_back(still->bytes);
+  }
+  EXPECT_EQ(sizes.size(), std::size_t{kStills});
+  EXPECT_TRUE(std::ranges::is_sorted(sizes, std::ranges::greater()));
+  EXPECT_TRUE(std::holds_alternative<record::StepDone>(reading->entries.back().event))
+      << "the answer came after the stills";
+}
+
+TEST_F(LiveProcedureTest, WhatWasAnsweredIsInTheRecordWhenTheProgramEnds) {
+  {
+    LiveProcedure live = begin();
+    EXPECT_TRUE(live.press({.name = "pagedown"}));
+  }
+  EXPECT_EQ(begin().status().step, "look");
+}
+
+TEST_F(LiveProcedureTest, NoticesAreInTheProceduresLanguage) {
+  std::string toml = textOf(procedure() / "procedure.toml");
+  toml.replace(toml.find("[\"en\"]"), 6, "[\"de\"]");
+  write(procedure() / "procedure.toml", toml);
+  fs::rename(procedure() / "en.md", procedure() / "de.md");
+  LiveProcedure live = begin();
+  press(live, "pagedown pagedown");
+  EXPECT_EQ(live.takeNotice(), "dieser Schritt stellt eine Frage: y (ja) oder n (nein)");
+  press(live, "n");
+  EXPECT_EQ(live.takeNotice(), "nein: diesen Schritt noch einmal");
+  EXPECT_TRUE(live.press({.name = "x", .shift = true}));
+  live.finish();
+  EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("abgezeichnet; letzte Prüfsumme "));
 }
 
 TEST_F(LiveProcedureTest, SaysWhatIsWrongAtTheStart) {

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "firmware_app/config/input_map.h"
-#include "firmware_app/live/command_cards.h"
-#include "firmware_app/live/live_procedure.h"
+#include "firmware_app/repair_station/command_cards.h"
+#include "firmware_app/repair_station/live_procedure.h"
 #include "hal/clock.h"
 #include "hal/error.h"
 #include "hal/keyboards/buttons.h"
+#include "pipeline/procedure/notices.h"
 #include "pipeline/procedure/step_command.h"
 
 namespace pleinair::app {
@@ -57,6 +58,7 @@ class StepInputs {
  private:
   void obey(const procedure::StepCommand& command, const std::string& source);
   std::string nameOf(std::size_t device) const;
+  const procedure::Notices& notices() const { return procedure::noticesIn(procedure_.language()); }
 
   InputMap map_;
   LiveProcedure& procedure_;

@@ -1,4 +1,4 @@
-#include "firmware_app/live/seen_tags.h"
+#include "firmware_app/repair_station/seen_tags.h"
 
 #include <algorithm>
 #include <cmath>
