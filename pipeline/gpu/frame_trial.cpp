@@ -6,11 +6,10 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <linux/dma-buf.h>
-#include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "hal/dma_buf_sync.h"
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/gpu/frame_planes.h"
 #include "pipeline/gpu/frame_upload.h"
@@ -104,8 +103,7 @@ std::optional<hal::ImageView> viewOf(const TriedFrame& frame) {
     const auto bytes = static_cast<std::size_t>(end);
     void* const address = mmap(nullptr, bytes, PROT_READ, MAP_SHARED, plane.fd, 0);
     if (address == MAP_FAILED) return std::nullopt;
-    dma_buf_sync request{.flags = DMA_BUF_SYNC_READ | DMA_BUF_SYNC_START};
-    ioctl(plane.fd, DMA_BUF_IOCTL_SYNC, &request);  // memory without it is coherent
+    hal::syncDmaBuf(plane.fd, hal::DmaBufAccess::kBeginRead);
     view.planes.at(at) = {
         .bytes =
             std::span(static_cast<const std::uint8_t*>(address), bytes).subspan(plane.offsetBytes),

@@ -218,7 +218,7 @@ TEST_F(HostedLibraryTest, ControlsAndWishesArrive) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().message(),
             "libcamera:" + sensor.id +
-                ": has no control of focus; remove the setting; the camera has exposure (no auto), "
+                ": has no control of focus; remove the setting; the device has exposure (no auto), "
                 "gain");
 }
 
