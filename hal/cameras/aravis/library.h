@@ -13,7 +13,8 @@
 #include "hal/pixel_format.h"
 
 // The seam to Aravis: all that the camera uses of it, without one of its types. Only
-// aravis_library.cpp and arv_*.cpp call Aravis; tests replace the seam (tests/support/fake_aravis.h).
+// aravis_library.cpp and arv_*.cpp call Aravis; tests replace the seam
+// (tests/support/fake_aravis.h).
 
 namespace pleinair::hal::aravis {
 
