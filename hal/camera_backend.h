@@ -44,6 +44,9 @@ struct CameraDescription {
   std::optional<ChosenMode>
       chosen;                    ///< for a request, where CameraBackend::offeredModes() was asked
   std::optional<Error> problem;  ///< why it could not be inspected (permissions, busy)
+  /// What the back end keeps of the listing while this is held, so that opening is quick; may be
+  /// null.
+  std::shared_ptr<const void> kept = nullptr;
 };
 
 /// A family of cameras: lists those that are present, and makes them. One thread at a time.

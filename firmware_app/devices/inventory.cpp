@@ -11,6 +11,8 @@ DeviceCameras listDeviceCameras(std::span<const hal::SelectableBackend> backends
   for (const hal::SelectableBackend& each : backends) {
     hal::Result<std::vector<hal::CameraDescription>> cameras = each.backend->list();
     if (cameras) {
+      // A list is kept for long, and nothing is opened from it.
+      for (hal::CameraDescription& camera : *cameras) camera.kept.reset();
       std::ranges::move(*cameras, std::back_inserter(all.cameras));
     } else {
       all.problems.push_back(std::move(cameras.error()));

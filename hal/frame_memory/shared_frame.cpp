@@ -1,13 +1,11 @@
 #include "hal/frame_memory/shared_frame.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
-#include <linux/dma-buf.h>
-#include <sys/ioctl.h>
-#include <sys/mman.h>
+#include "hal/dma_buf_sync.h"
 
 namespace pleinair::hal {
 namespace {
@@ -37,13 +35,11 @@ Result<std::unique_ptr<SharedFrame>> SharedFrame::make(FrameAllocator& allocator
   std::array<DmaBufPlane, 3> planes = planesOf(format, bytes);
   Result<FileDescriptor> dmaBuf = allocator.allocate(bytes);
   if (!dmaBuf) return tl::unexpected(std::move(dmaBuf.error()));
-  void* const address =
-      ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, dmaBuf->get(), 0);
-  if (address == MAP_FAILED) {
+  MappedMemory memory = MappedMemory::map(dmaBuf->get(), bytes, true);
+  if (!memory) {
     return tl::unexpected(errnoError(allocator.name(), "its memory cannot be mapped", errno));
   }
-  std::unique_ptr<SharedFrame> frame(
-      new SharedFrame(*std::move(dmaBuf), static_cast<std::uint8_t*>(address), bytes));
+  std::unique_ptr<SharedFrame> frame(new SharedFrame(*std::move(dmaBuf), std::move(memory)));
   for (DmaBufPlane& plane : planes) {
     if (plane.strideBytes > 0) plane.fd = frame->dmaBuf_.get();
   }
@@ -52,36 +48,31 @@ Result<std::unique_ptr<SharedFrame>> SharedFrame::make(FrameAllocator& allocator
   return frame;
 }
 
-SharedFrame::SharedFrame(FileDescriptor dmaBuf, std::uint8_t* address, std::size_t bytes)
-    : dmaBuf_(std::move(dmaBuf)), address_(address), bytes_(bytes) {}
-
-SharedFrame::~SharedFrame() {
-  ::munmap(address_, bytes_);
-}
+SharedFrame::SharedFrame(FileDescriptor dmaBuf, MappedMemory memory)
+    : dmaBuf_(std::move(dmaBuf)), memory_(std::move(memory)) {}
 
 void SharedFrame::write(const ImageView& picture) {
   assert(picture.format == format_);
-  dma_buf_sync request{.flags = DMA_BUF_SYNC_WRITE | DMA_BUF_SYNC_START};
-  ::ioctl(dmaBuf_.get(), DMA_BUF_IOCTL_SYNC, &request);  // memory without it is coherent
+  syncDmaBuf(dmaBuf_.get(), DmaBufAccess::kBeginWrite);
   for (int i = 0; i < planeCount(format_.pixelFormat); ++i) {
     const DmaBufPlane& plane = planes_.at(static_cast<std::size_t>(i));
     for (int y = 0; y < planeRows(format_.pixelFormat, i, format_.size.height); ++y) {
       const std::span<const std::uint8_t> row = picture.row(i, y);
-      std::memcpy(address_ + plane.offsetBytes + static_cast<std::size_t>(y) * plane.strideBytes,
-                  row.data(), row.size());
+      std::ranges::copy(
+          row, memory_.bytes().begin() +
+                   static_cast<std::ptrdiff_t>(plane.offsetBytes +
+                                               static_cast<std::size_t>(y) * plane.strideBytes));
     }
   }
-  request.flags = DMA_BUF_SYNC_WRITE | DMA_BUF_SYNC_END;
-  ::ioctl(dmaBuf_.get(), DMA_BUF_IOCTL_SYNC, &request);
+  syncDmaBuf(dmaBuf_.get(), DmaBufAccess::kEndWrite);
 }
 
 CapturedFrame SharedFrame::frame(BufferIdentity identity) const {
   ImageView view{.format = format_, .planes = {}};
   for (int i = 0; i < planeCount(format_.pixelFormat); ++i) {
     const auto at = static_cast<std::size_t>(i);
-    view.planes.at(at) = {
-        .bytes = {address_ + planes_.at(at).offsetBytes, bytes_ - planes_.at(at).offsetBytes},
-        .strideBytes = planes_.at(at).strideBytes};
+    view.planes.at(at) = {.bytes = memory_.bytes().subspan(planes_.at(at).offsetBytes),
+                          .strideBytes = planes_.at(at).strideBytes};
   }
   return {.image = view,
           .dmaBufs = planes_,

@@ -9,6 +9,7 @@
 #include "hal/error.h"
 #include "hal/file_descriptor.h"
 #include "hal/frame_allocator.h"
+#include "hal/mapped_memory.h"
 
 namespace pleinair::hal {
 
@@ -18,7 +19,6 @@ class SharedFrame {
  public:
   /// Errors: the allocator's; kIo where the memory cannot be mapped.
   static Result<std::unique_ptr<SharedFrame>> make(FrameAllocator& allocator, FrameFormat format);
-  ~SharedFrame();
   SharedFrame(const SharedFrame&) = delete;
   SharedFrame& operator=(const SharedFrame&) = delete;
 
@@ -28,11 +28,10 @@ class SharedFrame {
   CapturedFrame frame(BufferIdentity identity) const;
 
  private:
-  SharedFrame(FileDescriptor dmaBuf, std::uint8_t* address, std::size_t bytes);
+  SharedFrame(FileDescriptor dmaBuf, MappedMemory memory);
 
   FileDescriptor dmaBuf_;
-  std::uint8_t* address_;
-  std::size_t bytes_;
+  MappedMemory memory_;
   FrameFormat format_;
   std::array<DmaBufPlane, 3> planes_;
 };

@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::string_view kAuto = "auto";
 constexpr std::string_view kSerial = "serial";
+/// How often a search begins again because devices have come or gone meanwhile.
+constexpr int kMostRestarts = 3;
 
 /// "BACKEND:NAME" or "BACKEND".
 struct Choice {
@@ -125,36 +127,55 @@ const SelectableBackend* CameraSelector::backendNamed(std::string_view name) con
   return found == backends_.end() ? nullptr : &*found;
 }
 
+std::optional<OpenedCamera> CameraSelector::tried(const Candidate& candidate,
+                                                  const StreamRequest& request,
+                                                  std::vector<Error>& reasons) {
+  if (candidate.description.problem) {
+    reasons.push_back(*candidate.description.problem);
+    return std::nullopt;
+  }
+  Result<OpenedCamera> opened = start(candidate, request);
+  if (opened) return std::move(*opened);
+  reasons.push_back(std::move(opened.error()));
+  return std::nullopt;
+}
+
+std::optional<OpenedCamera> CameraSelector::openOf(const SelectableBackend& backend,
+                                                   const StreamRequest& request,
+                                                   std::vector<Candidate>& lastOnes,
+                                                   std::vector<Error>& reasons) {
+  Candidates candidates = listed({&backend});
+  std::ranges::move(candidates.problems, std::back_inserter(reasons));
+  for (Candidate& each : candidates.found) {
+    if (rankOf(each) >= 0) {
+      lastOnes.push_back(std::move(each));
+    } else if (auto opened = tried(each, request, reasons)) {
+      return opened;
+    }
+  }
+  return std::nullopt;
+}
+
 Result<OpenedCamera> CameraSelector::openFirst(
     const std::vector<const SelectableBackend*>& backends, const StreamRequest& request) {
   std::vector<Error> reasons;
-  const auto tried = [&](const Candidate& candidate) -> std::optional<OpenedCamera> {
-    if (candidate.description.problem) {
-      reasons.push_back(*candidate.description.problem);
-      return std::nullopt;
-    }
-    Result<OpenedCamera> opened = start(candidate, request);
-    if (opened) return std::move(*opened);
-    reasons.push_back(std::move(opened.error()));
-    return std::nullopt;
-  };
   std::vector<Candidate> lastOnes;
+  int restarts = 0;
+  haveDevicesChanged_ = false;
   // A back end is asked for its cameras only when those before it have failed: asking a network
   // takes a second.
-  for (const SelectableBackend* backend : backends) {
-    Candidates candidates = listed({backend});
-    std::ranges::move(candidates.problems, std::back_inserter(reasons));
-    for (Candidate& each : candidates.found) {
-      if (rankOf(each) >= 0) {
-        lastOnes.push_back(std::move(each));
-      } else if (auto opened = tried(each)) {
-        return std::move(*opened);
-      }
-    }
+  for (std::size_t i = 0; i < backends.size();) {
+    if (auto opened = openOf(*backends[i], request, lastOnes, reasons)) return *std::move(opened);
+    const bool isLast = ++i == backends.size();
+    if (isLast || !haveDevicesChanged_.exchange(false) || restarts == kMostRestarts) continue;
+    ++restarts;
+    reasons.clear();
+    lastOnes.clear();
+    i = 0;
   }
   std::ranges::stable_sort(lastOnes, {}, [&](const Candidate& each) { return rankOf(each); });
   for (const Candidate& each : lastOnes) {
-    if (auto opened = tried(each)) return std::move(*opened);
+    if (auto opened = tried(each, request, reasons)) return *std::move(opened);
   }
   return tl::unexpected(noneWorks(choice_, reasons));
 }
@@ -183,7 +204,10 @@ Result<OpenedCamera> CameraSelector::openNamed(const SelectableBackend& backend,
   for (const Candidate& each : found) {
     if (each.description.node != name) continue;
     Result<OpenedCamera> opened = start(each, request);
-    if (opened) openedByNode_ = each.description;
+    if (opened) {
+      openedByNode_ = each.description;
+      openedByNode_->kept.reset();
+    }
     return opened;
   }
   // A driver that was reset may give its camera another node.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -72,6 +73,11 @@ class CameraSelector {
   void putLast(const CameraIdentity& camera);
   void wasOfUse(const CameraIdentity& camera);
 
+  /// Devices have come or gone: a search that has not found a camera yet begins again with the
+  /// first back end, rather than go on to those that take long to ask. Three times at most, since a
+  /// device may come and go for ever. Any thread.
+  void devicesChanged() { haveDevicesChanged_ = true; }
+
   /// Nothing is opened from now on, and an open() that waits for a device on a thread of its own
   /// returns at once. Any thread.
   void interrupt() { stopping_.request_stop(); }
@@ -91,6 +97,12 @@ class CameraSelector {
 
   Result<OpenedCamera> openFirst(const std::vector<const SelectableBackend*>& backends,
                                  const StreamRequest& request);
+  /// Tries those of one back end, but for those that are to be tried last, which are added to
+  /// `lastOnes`; nothing where none works, for `reasons`.
+  std::optional<OpenedCamera> openOf(const SelectableBackend& backend, const StreamRequest& request,
+                                     std::vector<Candidate>& lastOnes, std::vector<Error>& reasons);
+  std::optional<OpenedCamera> tried(const Candidate& candidate, const StreamRequest& request,
+                                    std::vector<Error>& reasons);
   Result<OpenedCamera> openSerial(std::string_view serial, const StreamRequest& request);
   Result<OpenedCamera> openNamed(const SelectableBackend& backend, std::string_view name,
                                  const StreamRequest& request);
@@ -103,6 +115,7 @@ class CameraSelector {
   Clock& clock_;
   CameraWrapper wrapper_;
   std::stop_source stopping_;
+  std::atomic<bool> haveDevicesChanged_ = false;
   std::vector<CameraIdentity> last_;
   /// the camera last opened by the node in the choice
   std::optional<CameraDescription> openedByNode_;

@@ -288,6 +288,7 @@ void CameraSupervisor::wake() {
 
 void CameraSupervisor::devicesChanged() {
   haveDevicesChanged_ = true;
+  selector_.devicesChanged();
   wake();
 }
 

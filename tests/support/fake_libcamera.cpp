@@ -137,6 +137,11 @@ class FakeStream final : public Stream {
     completed.timestamp = frame.timestamp.value_or(clock_.now().time_since_epoch());
     completed.sensorTime = frame.sensorTime;
     OwnedMemory& memory = *memory_[completed.index];
+    const auto last = static_cast<std::size_t>(memory.view.planeCount - 1);
+    for (std::size_t plane = 0; plane <= last; ++plane) {
+      completed.usedBytes.at(plane) = memory.bytes.at(plane).size();
+    }
+    completed.usedBytes.at(last) -= frame.missingBytes;
     for (std::size_t plane = 0; plane < 3; ++plane) {
       for (std::size_t i = 0; i < memory.bytes.at(plane).size(); ++i) {
         memory.bytes.at(plane)[i] = static_cast<std::uint8_t>(16 * plane + i + number_);

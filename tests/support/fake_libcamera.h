@@ -18,6 +18,7 @@ struct FakeSensorFrame {
   bool isFaulty = false;
   std::optional<hal::Duration> timestamp;
   std::optional<hal::Duration> sensorTime;
+  std::size_t missingBytes = 0;  ///< of the last plane, which the driver has not filled
   bool isLost = false;    ///< the camera is unplugged in place of this frame, and libcamera says so
   bool isSilent = false;  ///< from here on nothing comes, and nothing is said
 };

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -201,7 +202,8 @@ class ScriptedBackend final : public hal::CameraBackend {
     return device;
   }
   void failListing(hal::Error error) { listError_ = std::move(error); }
-  int lists = 0;  ///< calls of list()
+  int lists = 0;                     ///< calls of list()
+  std::function<void()> whenListed;  ///< called at the end of each, if set
 
   std::string_view name() const override { return name_; }
   hal::Result<std::vector<hal::CameraDescription>> list() override {
@@ -209,6 +211,7 @@ class ScriptedBackend final : public hal::CameraBackend {
     if (listError_) return tl::unexpected(*listError_);
     std::vector<hal::CameraDescription> descriptions;
     for (const auto& device : devices_) descriptions.push_back(device->description);
+    if (whenListed) whenListed();
     return descriptions;
   }
   std::unique_ptr<hal::Camera> make(const std::string& id, hal::Clock&) override {

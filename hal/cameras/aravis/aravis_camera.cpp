@@ -1,19 +1,18 @@
 #include "hal/cameras/aravis/aravis_camera.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "hal/buffer_leases.h"
 #include "hal/cameras/aravis/frame_numbers.h"
 #include "hal/cameras/aravis/unpack12.h"
 #include "hal/frame_pool.h"
 #include "hal/image.h"
 #include "hal/printable.h"
-#include "hal/returned_buffers.h"
 
 namespace pleinair::hal::aravis {
 namespace {
@@ -25,45 +24,20 @@ constexpr Duration kLossInterval = std::chrono::milliseconds(50);
 /// Buffers that Aravis needs: one fills while the packets of the one before are still awaited.
 constexpr std::size_t kFewestFree = 2;
 
-/// Tells the camera that a buffer is free when the last copy is dropped; keeps its memory till
-/// then.
-class Lease {
+class Session final : public CameraSession {
  public:
-  Lease(std::shared_ptr<const Memory> memory, std::shared_ptr<ReturnedBuffers> returns,
-        std::uint32_t index)
-      : memory_(std::move(memory)), returns_(std::move(returns)), index_(index) {}
-  ~Lease() { returns_->put(index_); }
-  Lease(const Lease&) = delete;
-  Lease& operator=(const Lease&) = delete;
-
- private:
-  std::shared_ptr<const Memory> memory_;
-  std::shared_ptr<ReturnedBuffers> returns_;
-  std::uint32_t index_;
-};
-
-Error named(Error error, const std::string& id) {
-  if (error.subject.empty()) error.subject = "aravis:" + id;
-  return error;
-}
-
-}  // namespace
-
-/// A camera from start() to stop(). One thread; frames may be dropped on any.
-class Session {
- public:
-  Session(std::string id, std::unique_ptr<Device> device, Clock& clock)
-      : id_(std::move(id)),
+  Session(CameraIdentity camera, AravisOptions options, Library& library,
+          std::unique_ptr<Device> device, Clock& clock)
+      : camera_(std::move(camera)),
+        options_(std::move(options)),
+        library_(library),
         clock_(clock),
         numbers_(device->transport()),
         device_(std::move(device)) {}
 
-  std::string description() const { return device_->description(); }
-  /// Sets up and starts. Errors: as Camera::start().
-  Result<StreamFormat> begin(Library& library, const AravisOptions& options,
-                             const StreamRequest& request);
-  /// As Camera::next().
-  NextFrame next(TimePoint deadline);
+  std::string description() const override { return device_->description(); }
+  Result<StreamFormat> begin(const StreamRequest& request) override;
+  NextFrame next(TimePoint deadline) override;
 
  private:
   void requeue();
@@ -77,49 +51,49 @@ class Session {
   void lendPixels(const Filled& filled, CapturedFrame& frame);
   void unpackPixels(const Filled& filled, CapturedFrame& frame);
   NextFrame end(NextFrame answer);
+  Error named(Error error) const { return SessionCamera::named(std::move(error), camera_); }
 
-  std::string id_;
+  CameraIdentity camera_;
+  AravisOptions options_;
+  Library& library_;
   Clock& clock_;
   Negotiated negotiated_;
   FrameFormat format_;
   FrameNumbers numbers_;
   std::optional<FramePool> images_;  ///< for copies and unpacked frames
   std::vector<std::shared_ptr<Memory>> memory_;
-  std::shared_ptr<ReturnedBuffers> returns_ = std::make_shared<ReturnedBuffers>();
-  std::vector<std::uint32_t> returned_;  ///< scratch
-  std::size_t lent_ = 0;
+  BufferLeases leases_;
   TimePoint nextTrigger_;
   std::optional<NextFrame> ended_;
   std::unique_ptr<Device> device_;
   std::unique_ptr<Stream> stream_;  ///< destroyed first
 };
 
-Result<StreamFormat> Session::begin(Library& library, const AravisOptions& options,
-                                    const StreamRequest& request) {
-  Result<Negotiated> negotiated = setUp(*device_, options, request);
-  if (!negotiated) return tl::unexpected(named(std::move(negotiated.error()), id_));
+Result<StreamFormat> Session::begin(const StreamRequest& request) {
+  Result<Negotiated> negotiated = setUp(*device_, options_, request);
+  if (!negotiated) return tl::unexpected(std::move(negotiated.error()));
   negotiated_ = *negotiated;
   format_ = {.pixelFormat = negotiated_.layout->pixelFormat, .size = negotiated_.region.size()};
   images_.emplace(format_);
   std::vector<std::span<std::uint8_t>> buffers;
-  for (int i = 0; i < options.buffers; ++i) {
+  for (int i = 0; i < options_.buffers; ++i) {
     memory_.push_back(std::make_shared<Memory>(negotiated_.bufferBytes));
     buffers.emplace_back(*memory_.back());
   }
   Result<std::unique_ptr<Stream>> stream =
-      device_->start({.resends = options.resends,
-                      .frameRetention = options.frameRetention,
-                      .socketBufferBytes = options.socketBufferBytes,
-                      .usesPacketSocket = options.packetSocket},
+      device_->start({.resends = options_.resends,
+                      .frameRetention = options_.frameRetention,
+                      .socketBufferBytes = options_.socketBufferBytes,
+                      .usesPacketSocket = options_.packetSocket},
                      std::move(buffers));
-  if (!stream) return tl::unexpected(named(std::move(stream.error()), id_));
+  if (!stream) return tl::unexpected(std::move(stream.error()));
   stream_ = *std::move(stream);
   nextTrigger_ = clock_.now();
   return StreamFormat{.frame = format_,
                       .framePeriod = negotiated_.framePeriod,
                       .frameCount = {},
                       .isTriggered = negotiated_.isLineTriggered,
-                      .warning = linkWarning(library, *device_, options)};
+                      .warning = linkWarning(library_, *device_, options_)};
 }
 
 NextFrame Session::end(NextFrame answer) {
@@ -128,22 +102,17 @@ NextFrame Session::end(NextFrame answer) {
 }
 
 void Session::requeue() {
-  returned_.clear();
-  returns_->take(returned_);
-  for (const std::uint32_t index : returned_) {
-    --lent_;
-    stream_->push(index);
-  }
+  leases_.takeBack([this](std::uint32_t index) { stream_->push(index); });
 }
 
 std::optional<NextFrame> Session::loss() {
   if (!device_->isLost()) return std::nullopt;
   const bool isNetworked = device_->transport() == Transport::kGige;
   return end(CameraLost{
-      .cause = named({.kind = ErrorKind::kDeviceLost,
-                      .problem = isNetworked ? "no longer answers on the network" : "is unplugged",
-                      .remedy = isNetworked ? "check its cable and its power" : "plug it in again"},
-                     id_)});
+      .cause =
+          named({.kind = ErrorKind::kDeviceLost,
+                 .problem = isNetworked ? "no longer answers on the network" : "is unplugged",
+                 .remedy = isNetworked ? "check its cable and its power" : "plug it in again"})});
 }
 
 std::optional<NextFrame> Session::triggerIfDue() {
@@ -153,7 +122,7 @@ std::optional<NextFrame> Session::triggerIfDue() {
   nextTrigger_ = std::max(nextTrigger_ + period, now);  // a pause is not made up for
   if (const Result<void> done = device_->trigger(); !done) {
     if (auto lost = loss()) return lost;
-    return end(named(done.error(), id_));
+    return end(named(done.error()));
   }
   return std::nullopt;
 }
@@ -234,7 +203,7 @@ void Session::lendPixels(const Filled& filled, CapturedFrame& frame) {
                                           : rowBytes(format_.pixelFormat, 0, format_.size.width)};
   frame.image = picture;
   const auto index = static_cast<std::uint32_t>(filled.index);
-  if (lent_ + 1 + kFewestFree > memory_.size()) {
+  if (leases_.count() + 1 + kFewestFree > memory_.size()) {
     const std::shared_ptr<Image> copy = images_->take();
     for (int y = 0; y < format_.size.height; ++y) {
       std::ranges::copy(picture.row(0, y), copy->row(0, y).begin());
@@ -244,8 +213,7 @@ void Session::lendPixels(const Filled& filled, CapturedFrame& frame) {
     stream_->push(index);
     return;
   }
-  ++lent_;
-  frame.lease = std::make_shared<const Lease>(memory, returns_, index);
+  frame.lease = leases_.lend(index, memory);
 }
 
 void Session::unpackPixels(const Filled& filled, CapturedFrame& frame) {
@@ -268,34 +236,20 @@ void Session::unpackPixels(const Filled& filled, CapturedFrame& frame) {
   frame.lease = image;
 }
 
+}  // namespace
+
 AravisCamera::AravisCamera(std::string id, AravisOptions options, Library& library, Clock& clock)
-    : options_(std::move(options)),
+    : SessionCamera(
+          {.backend = "aravis", .id = id, .description = "machine-vision camera " + printable(id)}),
+      id_(std::move(id)),
+      options_(std::move(options)),
       library_(library),
-      clock_(clock),
-      identity_{.backend = "aravis", .id = std::move(id), .description = {}} {
-  identity_.description = "machine-vision camera " + identity_.id;
-}
+      clock_(clock) {}
 
-AravisCamera::~AravisCamera() = default;
-
-Result<StreamFormat> AravisCamera::start(const StreamRequest& request) {
-  stop();
-  Result<std::unique_ptr<Device>> device = library_.open(identity_.id);
-  if (!device) return tl::unexpected(named(std::move(device.error()), identity_.id));
-  auto session = std::make_unique<Session>(identity_.id, *std::move(device), clock_);
-  identity_.description = printable(session->description());
-  Result<StreamFormat> format = session->begin(library_, options_, request);
-  if (format) session_ = std::move(session);
-  return format;
-}
-
-NextFrame AravisCamera::next(TimePoint deadline) {
-  assert(session_ != nullptr && "next() of a camera that does not stream");
-  return session_->next(deadline);
-}
-
-void AravisCamera::stop() {
-  session_.reset();
+Result<std::unique_ptr<CameraSession>> AravisCamera::open() {
+  Result<std::unique_ptr<Device>> device = library_.open(id_);
+  if (!device) return tl::unexpected(std::move(device.error()));
+  return std::make_unique<Session>(identity(), options_, library_, *std::move(device), clock_);
 }
 
 }  // namespace pleinair::hal::aravis

@@ -3,13 +3,11 @@
 #include <memory>
 #include <string>
 
-#include "hal/camera.h"
 #include "hal/cameras/aravis/library.h"
 #include "hal/cameras/aravis/setup.h"
+#include "hal/cameras/session_camera.h"
 
 namespace pleinair::hal::aravis {
-
-class Session;
 
 /// A GigE Vision or USB3 Vision camera (docs/cameras.md), by way of Aravis.
 ///
@@ -24,25 +22,18 @@ class Session;
 /// next() answers CameraLost once Aravis has had no answer of the device for some seconds, or it is
 /// unplugged. stop() may block for as long as the device does not answer, 7.5 s at most: devices
 /// run on driver threads, which the program abandons after 1 s (hal/supervisor/worker_camera.h).
-class AravisCamera final : public Camera {
+class AravisCamera final : public SessionCamera {
  public:
   /// `id`: FoundDevice::id, physical id or address. The library outlives the camera and its frames.
   AravisCamera(std::string id, AravisOptions options, Library& library, Clock& clock);
-  ~AravisCamera() override;
-  AravisCamera(const AravisCamera&) = delete;
-  AravisCamera& operator=(const AravisCamera&) = delete;
-
-  CameraIdentity identity() const override { return identity_; }
-  Result<StreamFormat> start(const StreamRequest& request) override;
-  NextFrame next(TimePoint deadline) override;
-  void stop() override;
 
  private:
+  Result<std::unique_ptr<CameraSession>> open() override;
+
+  std::string id_;
   AravisOptions options_;
   Library& library_;
   Clock& clock_;
-  CameraIdentity identity_;
-  std::unique_ptr<Session> session_;  ///< while streaming
 };
 
 }  // namespace pleinair::hal::aravis

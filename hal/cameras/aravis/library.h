@@ -12,8 +12,9 @@
 #include "hal/error.h"
 #include "hal/pixel_format.h"
 
-// The seam to Aravis: all that the camera uses of it, without one of its types. aravis_library.cpp
-// is the only file that calls Aravis; tests replace the seam (tests/support/fake_aravis.h).
+// The seam to Aravis: all that the camera uses of it, without one of its types. Only
+// aravis_library.cpp and arv_*.cpp call Aravis; tests replace the seam
+// (tests/support/fake_aravis.h).
 
 namespace pleinair::hal::aravis {
 

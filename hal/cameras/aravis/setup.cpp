@@ -1,6 +1,7 @@
 #include "hal/cameras/aravis/setup.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <limits>
@@ -11,6 +12,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "hal/cameras/missing_control.h"
 
 namespace pleinair::hal::aravis {
 namespace {
@@ -104,33 +107,21 @@ Result<void> setTrigger(Device& device, const std::string& trigger) {
                               fmt::join(*sources, ", "))));
 }
 
+constexpr std::array<std::string_view, 3> kControlNames{"exposure", "gain", "white_balance"};
+
 std::string_view nameOf(Control control) {
-  switch (control) {
-    case Control::kExposure:
-      return "exposure";
-    case Control::kGain:
-      return "gain";
-    case Control::kWhiteBalance:
-      return "white_balance";
-  }
-  return "";
+  return kControlNames.at(static_cast<std::size_t>(control));
 }
 
-Error missing(Device& device, const std::string& what) {
-  std::vector<std::string> has;
-  for (const Control each : {Control::kExposure, Control::kGain, Control::kWhiteBalance}) {
-    const bool hasValue = device.bounds(each).has_value();
-    const bool hasAutomatic = device.hasAutomatic(each);
-    if (!hasValue && !hasAutomatic) continue;
-    has.push_back(fmt::format("{}{}", nameOf(each),
-                              !hasValue       ? " (auto only)"
-                              : !hasAutomatic ? " (no auto)"
-                                              : ""));
+Error missing(Device& device, std::string_view what) {
+  std::array<OfferedControl, kControlNames.size()> offered;
+  for (std::size_t i = 0; i < offered.size(); ++i) {
+    const auto control = static_cast<Control>(i);
+    offered.at(i) = {.name = nameOf(control),
+                     .hasValue = device.bounds(control).has_value(),
+                     .hasAutomatic = device.hasAutomatic(control)};
   }
-  return unsupported(
-      "has no control of " + what,
-      has.empty() ? "remove the setting; the device has no such controls"
-                  : fmt::format("remove the setting; the device has {}", fmt::join(has, ", ")));
+  return missingControl(what, offered);
 }
 
 Result<void> setAutomatic(Device& device, Control control) {
@@ -143,7 +134,7 @@ Result<void> setAutomatic(Device& device, Control control) {
 template <class ToUnits>
 Result<void> setValue(Device& device, Control control, ToUnits toUnits) {
   const std::optional<Bounds<double>> bounds = device.bounds(control);
-  if (!bounds) return tl::unexpected(missing(device, std::string(nameOf(control))));
+  if (!bounds) return tl::unexpected(missing(device, nameOf(control)));
   if (device.hasAutomatic(control)) {
     if (Result<void> off = device.setAutomatic(control, false); !off) return off;
   }

@@ -123,6 +123,20 @@ std::optional<std::array<PlaneView, 3>> planesIn(const BufferMemory& memory,
   return planes;
 }
 
+bool isFilled(const std::array<std::size_t, 3>& usedBytes, const BufferMemory& memory,
+              const FrameLayout& layout, const std::array<PlaneView, 3>& planes) {
+  const int count = planeCount(layout.pixelFormat);
+  const bool isSeparate = memory.planeCount >= count;
+  for (int i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const std::size_t in = isSeparate ? at : 0;
+    const auto begin =
+        static_cast<std::size_t>(planes.at(at).bytes.data() - memory.planes.at(in).data());
+    if (usedBytes.at(in) < begin + planes.at(at).bytes.size()) return false;
+  }
+  return true;
+}
+
 void swapToRgb(const PlaneView& from, int bytesPerPixel, Image& to) {
   const auto step = static_cast<std::size_t>(bytesPerPixel);
   for (int y = 0; y < to.size().height; ++y) {

@@ -42,6 +42,11 @@ std::optional<std::array<PlaneView, 3>> planesIn(const BufferMemory& memory,
                                                  const FrameLayout& layout, FrameSize size,
                                                  std::size_t strideBytes);
 
+/// Whether the driver has filled all of these planes of the memory, by the bytes that it has used
+/// of each memory plane.
+bool isFilled(const std::array<std::size_t, 3>& usedBytes, const BufferMemory& memory,
+              const FrameLayout& layout, const std::array<PlaneView, 3>& planes);
+
 /// Copies an image of blue, green, red (and one more byte) to RGB8. Precondition: `from` holds
 /// to.size() at its stride.
 void swapToRgb(const PlaneView& from, int bytesPerPixel, Image& to);

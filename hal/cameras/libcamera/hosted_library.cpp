@@ -2,20 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <chrono>
-#include <csignal>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 #include <vector>
 
-#include <sys/wait.h>
-
 #include "hal/cameras/libcamera/host_channel.h"
 #include "hal/cameras/libcamera/host_message.h"
+#include "hal/cameras/libcamera/library_host.h"
 #include "hal/cameras/libcamera/mapped_buffer.h"
 
 namespace pleinair::hal::libcamera {
@@ -25,142 +21,9 @@ using namespace std::chrono_literals;
 
 /// A listing holds up nobody but those who look for a camera; a first start reads much from disks.
 constexpr Duration kListLimit = 20s;
-/// Below the limit of driver threads (hal/supervisor/worker_camera.h), as are the next two.
+/// Below the limit of driver threads (hal/supervisor/worker_camera.h), as is the next.
 constexpr Duration kCallLimit = 8s;
 constexpr Duration kStopLimit = 500ms;
-/// What a host has to end by itself.
-constexpr Duration kEndLimit = 200ms;
-
-/// A child process, which is ended with this.
-class HostProcess {
- public:
-  explicit HostProcess(pid_t process) : process_(process) {}
-  HostProcess(const HostProcess&) = delete;
-  HostProcess& operator=(const HostProcess&) = delete;
-  ~HostProcess() { end(Duration::zero()); }
-
-  /// Waits for its end, and then kills it. A process that hangs in a driver outlives that: it is
-  /// looked for whenever another one ends.
-  void end(Duration limit) {
-    if (process_ < 0 || waitFor(limit)) return;
-    ::kill(process_, SIGKILL);
-    if (waitFor(kEndLimit)) return;
-    static std::mutex mutex;
-    static std::vector<pid_t> hanging;
-    const std::scoped_lock lock(mutex);
-    std::erase_if(hanging, [](pid_t each) { return ::waitpid(each, nullptr, WNOHANG) != 0; });
-    hanging.push_back(process_);
-    process_ = -1;
-  }
-
-  /// How it has ended: "was ended by signal 6".
-  std::string endText() {
-    if (process_ >= 0) waitFor(kEndLimit);
-    if (WIFSIGNALED(status_)) return "was ended by signal " + std::to_string(WTERMSIG(status_));
-    return "has ended";
-  }
-
- private:
-  bool waitFor(Duration limit) {
-    const auto until = std::chrono::steady_clock::now() + limit;
-    for (;;) {
-      const pid_t ended = ::waitpid(process_, &status_, WNOHANG);
-      if (ended == process_ || (ended < 0 && errno != EINTR)) {
-        process_ = -1;
-        return true;
-      }
-      if (std::chrono::steady_clock::now() >= until) return false;
-      std::this_thread::sleep_for(2ms);
-    }
-  }
-
-  pid_t process_;
-  int status_ = 0;
-};
-
-/// A host and the channels to it.
-class Host {
- public:
-  explicit Host(StartedHost started)
-      : process_(started.process),
-        calls_(std::move(started.calls)),
-        frames_(std::move(started.frames)) {}
-  ~Host() {
-    calls_.close();
-    frames_.close();
-    process_.end(isWell_ ? kEndLimit : Duration::zero());
-  }
-  Host(const Host&) = delete;
-  Host& operator=(const Host&) = delete;
-
-  HostChannel& frames() { return frames_; }
-  std::string lossText() { return "is lost: the process of libcamera " + process_.endText(); }
-  /// It is killed at its end, without a chance to close the camera.
-  void giveUp() { isWell_ = false; }
-
-  /// Sends a call with its arguments and waits for the answer.
-  template <class T, class... Arguments>
-  Result<T> call(Call what, Duration limit, const Arguments&... arguments) {
-    MessageWriter message;
-    message.put(what);
-    (message.put(arguments), ...);
-    if (!isWell_ || !calls_.send(message.bytes())) return tl::unexpected(ended());
-    switch (calls_.receive(answer_, limit)) {
-      case HostChannel::Reception::kMessage:
-        return answerOf<T>(what);
-      case HostChannel::Reception::kClosed:
-        return tl::unexpected(ended());
-      case HostChannel::Reception::kTimeout:
-        break;
-    }
-    giveUp();
-    return tl::unexpected(
-        Error{.kind = ErrorKind::kTimeout,
-              .problem = "libcamera gave no answer for " + durationText(limit),
-              .remedy = "unplug the camera, or start the computer anew if it is built in"});
-  }
-  /// The descriptors of the last answer.
-  std::vector<FileDescriptor>& descriptors() { return answer_.descriptors; }
-
- private:
-  template <class T>
-  Result<T> answerOf(Call what) {
-    MessageReader reader(answer_.bytes);
-    Call call{};
-    bool isGood = false;
-    reader.take(call, kLastCall);
-    reader.take(isGood);
-    if (reader.isValid() && call == what && !isGood) {
-      Error error;
-      reader.take(error);
-      if (reader.isValid()) return tl::unexpected(std::move(error));
-    } else if (reader.isValid() && call == what) {
-      if constexpr (std::is_void_v<T>) {
-        return {};
-      } else {
-        T value{};
-        reader.take(value);
-        if (reader.isValid()) return value;
-      }
-    }
-    giveUp();
-    return tl::unexpected(
-        Error{.kind = ErrorKind::kInternal, .problem = "the process of libcamera makes no sense"});
-  }
-
-  Error ended() {
-    giveUp();
-    return {.kind = ErrorKind::kIo,
-            .problem = "the process of libcamera " + process_.endText(),
-            .remedy = "its last lines in the log say why"};
-  }
-
-  HostProcess process_;
-  HostChannel calls_, frames_;
-  HostMessage answer_;
-  bool isWell_ = true;
-};
-
 class HostedStream final : public Stream {
  public:
   HostedStream(std::shared_ptr<Host> host, std::uint32_t number,
@@ -309,22 +172,46 @@ class HostedDevice final : public Device {
 
 }  // namespace
 
-Result<std::vector<FoundCamera>> HostedLibrary::list() {
+Result<std::shared_ptr<Host>> HostedLibrary::started() {
   Result<StartedHost> started = start_();
-  if (!started) return tl::unexpected(started.error());
-  Host host(*std::move(started));
-  auto found = host.call<std::vector<FoundCamera>>(Call::kList, kListLimit);
-  if (!found && found.error().subject.empty()) found.error().subject = "libcamera";
+  if (!started) return tl::unexpected(std::move(started.error()));
+  return std::make_shared<Host>(*std::move(started));
+}
+
+std::shared_ptr<Host> HostedLibrary::takeListed() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(listed_, {}).lock();
+}
+
+Result<std::vector<FoundCamera>> HostedLibrary::list() {
+  const Result<std::shared_ptr<Host>> host = started();
+  if (!host) return tl::unexpected(host.error());
+  auto found = (*host)->call<std::vector<FoundCamera>>(Call::kList, kListLimit);
+  if (!found) {
+    if (found.error().subject.empty()) found.error().subject = "libcamera";
+    return found;
+  }
+  for (FoundCamera& each : *found) each.kept = *host;
+  const std::scoped_lock lock(mutex_);
+  listed_ = *host;
   return found;
 }
 
 Result<std::unique_ptr<Device>> HostedLibrary::open(const std::string& id) {
-  Result<StartedHost> started = start_();
-  if (!started) return tl::unexpected(started.error());
-  auto host = std::make_shared<Host>(*std::move(started));
-  const Result<void> opened = host->call<void>(Call::kOpen, kCallLimit, id);
+  if (std::shared_ptr<Host> host = takeListed()) {
+    const Result<void> opened = host->call<void>(Call::kOpen, kCallLimit, id);
+    if (opened) return std::make_unique<HostedDevice>(std::move(host));
+    // It may have ended, and the devices may be others by now.
+    const ErrorKind kind = opened.error().kind;
+    if (kind != ErrorKind::kNotFound && kind != ErrorKind::kIo) {
+      return tl::unexpected(opened.error());
+    }
+  }
+  Result<std::shared_ptr<Host>> host = started();
+  if (!host) return tl::unexpected(std::move(host.error()));
+  const Result<void> opened = (*host)->call<void>(Call::kOpen, kCallLimit, id);
   if (!opened) return tl::unexpected(opened.error());
-  return std::make_unique<HostedDevice>(std::move(host));
+  return std::make_unique<HostedDevice>(*std::move(host));
 }
 
 }  // namespace pleinair::hal::libcamera

@@ -1,6 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
 
 #include <sys/types.h>
 
@@ -18,9 +22,15 @@ struct StartedHost {
 /// Starts a host. Any thread. Errors: kIo.
 using HostStarter = std::function<Result<StartedHost>()>;
 
+class Host;
+
 /// libcamera in another process, one for each listing and for each open camera, because libcamera
 /// ends its process on what it does not expect: the end of a device in mid-stream, or its return
 /// (docs/decisions/0053-libcamera-process.md). Buffers are dma-bufs that both processes have.
+///
+/// The process of a listing lives on while one of the cameras that it has found is held
+/// (FoundCamera::kept), and the next open() takes it over, which saves starting a process and
+/// looking for devices; where it cannot open the camera, a new one tries.
 ///
 /// A host that ends is an error of the call in progress (kIo), or the loss of the stream. One that
 /// does not answer within 8 s (20 s for a listing) is killed: kTimeout. The end of a stream takes
@@ -33,7 +43,12 @@ class HostedLibrary final : public Library {
   Result<std::unique_ptr<Device>> open(const std::string& id) override;
 
  private:
+  Result<std::shared_ptr<Host>> started();
+  std::shared_ptr<Host> takeListed();
+
   HostStarter start_;
+  std::mutex mutex_;            // guards the following
+  std::weak_ptr<Host> listed_;  ///< the host of the last listing, until a camera takes it over
 };
 
 }  // namespace pleinair::hal::libcamera

@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cerrno>
 #include <chrono>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "hal/buffer_leases.h"
 #include "hal/cameras/libcamera/frame_layout.h"
 #include "hal/cameras/libcamera/settings.h"
 #include "hal/frame_pool.h"
 #include "hal/printable.h"
-#include "hal/returned_buffers.h"
 
 namespace pleinair::hal::libcamera {
 namespace {
@@ -24,23 +23,6 @@ constexpr Duration kLossInterval = std::chrono::milliseconds(50);
 constexpr std::size_t kFewestFree = 2;
 /// A capture time may lie so far before now; others are taken for those of another clock.
 constexpr Duration kOldest = std::chrono::seconds(1);
-
-/// Tells the camera that a buffer is free when the last copy is dropped; keeps its memory till
-/// then.
-class Lease {
- public:
-  Lease(std::shared_ptr<const BufferMemory> memory, std::shared_ptr<ReturnedBuffers> returns,
-        std::uint32_t index)
-      : memory_(std::move(memory)), returns_(std::move(returns)), index_(index) {}
-  ~Lease() { returns_->put(index_); }
-  Lease(const Lease&) = delete;
-  Lease& operator=(const Lease&) = delete;
-
- private:
-  std::shared_ptr<const BufferMemory> memory_;
-  std::shared_ptr<ReturnedBuffers> returns_;
-  std::uint32_t index_;
-};
 
 /// Where the planes lie in the dma-bufs of their memory.
 std::array<DmaBufPlane, 3> dmaBufsOf(const BufferMemory& memory,
@@ -57,27 +39,18 @@ std::array<DmaBufPlane, 3> dmaBufsOf(const BufferMemory& memory,
   return dmaBufs;
 }
 
-Error named(Error error, const std::string& id) {
-  if (error.subject.empty()) error.subject = "libcamera:" + id;
-  return error;
-}
-
-}  // namespace
-
-/// A camera from start() to stop(). One thread; frames may be dropped on any.
-class Session {
+class Session final : public CameraSession {
  public:
-  Session(std::string id, std::unique_ptr<Device> device, Clock& clock)
-      : id_(std::move(id)), clock_(clock), device_(std::move(device)) {}
+  Session(CameraIdentity camera, LibcameraOptions options, std::unique_ptr<Device> device,
+          Clock& clock)
+      : camera_(std::move(camera)), options_(options), clock_(clock), device_(std::move(device)) {}
 
-  std::string description() const { return device_->description(); }
-  /// Configures and starts. Errors: as Camera::start().
-  Result<StreamFormat> begin(const LibcameraOptions& options, const StreamRequest& request);
-  /// As Camera::next().
-  NextFrame next(TimePoint deadline);
+  std::string description() const override { return device_->description(); }
+  Result<StreamFormat> begin(const StreamRequest& request) override;
+  NextFrame next(TimePoint deadline) override;
 
  private:
-  Result<void> configure(const LibcameraOptions& options, const StreamRequest& request);
+  Result<void> configure(const StreamRequest& request);
   bool requeue();
   NextFrame lost();
   NextFrame end(NextFrame answer);
@@ -85,16 +58,16 @@ class Session {
   void stamp(const Completed& completed, CapturedFrame& frame);
   void lendPixels(const Completed& completed, CapturedFrame& frame);
   void push(std::size_t index);
+  Error named(Error error) const { return SessionCamera::named(std::move(error), camera_); }
 
-  std::string id_;
+  CameraIdentity camera_;
+  LibcameraOptions options_;
   Clock& clock_;
   StreamAnswer answer_;
   const FrameLayout* layout_ = nullptr;
   FrameFormat format_;
   std::optional<FramePool> images_;  ///< for copies and converted frames
-  std::shared_ptr<ReturnedBuffers> returns_ = std::make_shared<ReturnedBuffers>();
-  std::vector<std::uint32_t> returned_;  ///< scratch
-  std::size_t lent_ = 0;
+  BufferLeases leases_;
   std::uint64_t pool_ = 0;
   bool wasStarving_ = false;
   int requeueFailure_ = 0;  ///< −errno
@@ -106,12 +79,12 @@ class Session {
   std::unique_ptr<Stream> stream_;  ///< destroyed first
 };
 
-Result<void> Session::configure(const LibcameraOptions& options, const StreamRequest& request) {
+Result<void> Session::configure(const StreamRequest& request) {
   const std::vector<OfferedFormat> offered = device_->formats();
   Result<StreamWish> wish = chooseFormat(offered, request.size, request.pixelFormat);
   if (!wish) return tl::unexpected(wish.error());
-  wish->buffers = options.buffers;
-  wish->orientation = options.orientation;
+  wish->buffers = options_.buffers;
+  wish->orientation = options_.orientation;
   const Result<StreamAnswer> answer = device_->configure(*wish);
   if (!answer) return tl::unexpected(answer.error());
   answer_ = *answer;
@@ -134,17 +107,15 @@ Result<void> Session::configure(const LibcameraOptions& options, const StreamReq
   return {};
 }
 
-Result<StreamFormat> Session::begin(const LibcameraOptions& options, const StreamRequest& request) {
-  if (const Result<void> done = configure(options, request); !done) {
-    return tl::unexpected(named(done.error(), id_));
-  }
+Result<StreamFormat> Session::begin(const StreamRequest& request) {
+  if (const Result<void> done = configure(request); !done) return tl::unexpected(done.error());
   const Result<StartSettings> settings = settingsFor(*device_, request);
-  if (!settings) return tl::unexpected(named(settings.error(), id_));
+  if (!settings) return tl::unexpected(settings.error());
   format_ = {
       .pixelFormat = layout_->pixelFormat, .size = answer_.size, .encoding = answer_.encoding};
   images_.emplace(format_);
   Result<std::unique_ptr<Stream>> stream = device_->start(*settings);
-  if (!stream) return tl::unexpected(named(std::move(stream.error()), id_));
+  if (!stream) return tl::unexpected(std::move(stream.error()));
   stream_ = *std::move(stream);
   pool_ = nextBufferPool();
   const bool isShared = layout_->swappedBytes == 0 && stream_->memory(0)->dmaBufs[0] >= 0;
@@ -162,8 +133,7 @@ NextFrame Session::end(NextFrame answer) {
 NextFrame Session::lost() {
   return end(CameraLost{.cause = named({.kind = ErrorKind::kDeviceLost,
                                         .problem = stream_->lossText(),
-                                        .remedy = "check its cable"},
-                                       id_)});
+                                        .remedy = "check its cable"})});
 }
 
 void Session::push(std::size_t index) {
@@ -171,12 +141,7 @@ void Session::push(std::size_t index) {
 }
 
 bool Session::requeue() {
-  returned_.clear();
-  returns_->take(returned_);
-  for (const std::uint32_t index : returned_) {
-    --lent_;
-    push(index);
-  }
+  leases_.takeBack([this](std::uint32_t index) { push(index); });
   return requeueFailure_ == 0;
 }
 
@@ -188,7 +153,7 @@ NextFrame Session::next(TimePoint deadline) {
       if (stream_->isLost() || requeueFailure_ == -EACCES || requeueFailure_ == -ENODEV) {
         return lost();
       }
-      return end(named(errnoError({}, "refuses to requeue its buffers", -requeueFailure_), id_));
+      return end(named(errnoError({}, "refuses to requeue its buffers", -requeueFailure_)));
     }
     const TimePoint now = clock_.now();
     const std::optional<Completed> completed =
@@ -214,7 +179,7 @@ void Session::stamp(const Completed& completed, CapturedFrame& frame) {
   const bool isTrusted = completed.timestamp > Duration::zero() && deviceTime <= now &&
                          deviceTime >= now - kOldest && (!lastTime_ || deviceTime > *lastTime_);
   frame.captureTime = isTrusted ? deviceTime : now;
-  frame.timestampSource = TimestampSource::kEndOfReadout;
+  frame.timestampSource = isTrusted ? TimestampSource::kEndOfReadout : TimestampSource::kArrival;
   if (lastTime_) frame.captureTime = std::max(frame.captureTime, *lastTime_ + Duration(1));
   lastTime_ = frame.captureTime;
   if (completed.sensorTime) {
@@ -227,25 +192,26 @@ void Session::stamp(const Completed& completed, CapturedFrame& frame) {
 CapturedFrame Session::frameOf(const Completed& completed) {
   CapturedFrame frame;
   stamp(completed, frame);
-  if (completed.isFaulty) frame.health = FrameHealth::kCorrupt;
   lendPixels(completed, frame);
-  wasStarving_ = lent_ > 0 && lent_ + kFewestFree >= stream_->bufferCount();
+  if (completed.isFaulty) frame.health = FrameHealth::kCorrupt;
+  wasStarving_ = leases_.count() > 0 && leases_.count() + kFewestFree >= stream_->bufferCount();
   return frame;
 }
 
 void Session::lendPixels(const Completed& completed, CapturedFrame& frame) {
   const std::shared_ptr<const BufferMemory> memory = stream_->memory(completed.index);
   const auto planes = planesIn(*memory, *layout_, answer_.size, answer_.strideBytes);
-  const bool mustCopy = lent_ + 1 + kFewestFree > stream_->bufferCount();
+  if (planes && !isFilled(completed.usedBytes, *memory, *layout_, *planes)) {
+    frame.health = FrameHealth::kIncomplete;
+  }
+  const bool mustCopy = leases_.count() + 1 + kFewestFree > stream_->bufferCount();
   if (planes && layout_->swappedBytes == 0 && !mustCopy) {
     frame.image = FrameImage({.format = format_, .planes = *planes}, memory->access);
     frame.dmaBufs = dmaBufsOf(*memory, *planes, planeCount(format_.pixelFormat));
     if (frame.dmaBufs[0].fd >= 0) {
       frame.buffer = {.pool = pool_, .index = static_cast<std::uint32_t>(completed.index)};
     }
-    ++lent_;
-    frame.lease = std::make_shared<const Lease>(memory, returns_,
-                                                static_cast<std::uint32_t>(completed.index));
+    frame.lease = leases_.lend(static_cast<std::uint32_t>(completed.index), memory);
     return;
   }
   const std::shared_ptr<Image> copy = images_->take();
@@ -268,35 +234,21 @@ void Session::lendPixels(const Completed& completed, CapturedFrame& frame) {
   frame.lease = copy;
 }
 
+}  // namespace
+
 LibcameraCamera::LibcameraCamera(std::string id, LibcameraOptions options, Library& library,
                                  Clock& clock)
-    : options_(options),
+    : SessionCamera(
+          {.backend = "libcamera", .id = id, .description = "libcamera " + printable(id)}),
+      id_(std::move(id)),
+      options_(options),
       library_(library),
-      clock_(clock),
-      identity_{.backend = "libcamera", .id = std::move(id), .description = {}} {
-  identity_.description = "libcamera " + identity_.id;
-}
+      clock_(clock) {}
 
-LibcameraCamera::~LibcameraCamera() = default;
-
-Result<StreamFormat> LibcameraCamera::start(const StreamRequest& request) {
-  stop();
-  Result<std::unique_ptr<Device>> device = library_.open(identity_.id);
-  if (!device) return tl::unexpected(named(std::move(device.error()), identity_.id));
-  auto session = std::make_unique<Session>(identity_.id, *std::move(device), clock_);
-  identity_.description = printable(session->description());
-  Result<StreamFormat> format = session->begin(options_, request);
-  if (format) session_ = std::move(session);
-  return format;
-}
-
-NextFrame LibcameraCamera::next(TimePoint deadline) {
-  assert(session_ != nullptr && "next() of a camera that does not stream");
-  return session_->next(deadline);
-}
-
-void LibcameraCamera::stop() {
-  session_.reset();
+Result<std::unique_ptr<CameraSession>> LibcameraCamera::open() {
+  Result<std::unique_ptr<Device>> device = library_.open(id_);
+  if (!device) return tl::unexpected(std::move(device.error()));
+  return std::make_unique<Session>(identity(), options_, *std::move(device), clock_);
 }
 
 }  // namespace pleinair::hal::libcamera

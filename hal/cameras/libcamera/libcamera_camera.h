@@ -3,12 +3,10 @@
 #include <memory>
 #include <string>
 
-#include "hal/camera.h"
 #include "hal/cameras/libcamera/library.h"
+#include "hal/cameras/session_camera.h"
 
 namespace pleinair::hal::libcamera {
-
-class Session;
 
 /// What [camera.libcamera] sets.
 struct LibcameraOptions {
@@ -30,25 +28,18 @@ struct LibcameraOptions {
 /// in every case, nor of any error of the driver: then it answers CameraTimeout, and the
 /// supervisor's watchdog finds out. stop() may block while a driver hangs: devices run on driver
 /// threads (hal/supervisor/worker_camera.h).
-class LibcameraCamera final : public Camera {
+class LibcameraCamera final : public SessionCamera {
  public:
   /// The library outlives the camera and its frames.
   LibcameraCamera(std::string id, LibcameraOptions options, Library& library, Clock& clock);
-  ~LibcameraCamera() override;
-  LibcameraCamera(const LibcameraCamera&) = delete;
-  LibcameraCamera& operator=(const LibcameraCamera&) = delete;
-
-  CameraIdentity identity() const override { return identity_; }
-  Result<StreamFormat> start(const StreamRequest& request) override;
-  NextFrame next(TimePoint deadline) override;
-  void stop() override;
 
  private:
+  Result<std::unique_ptr<CameraSession>> open() override;
+
+  std::string id_;
   LibcameraOptions options_;
   Library& library_;
   Clock& clock_;
-  CameraIdentity identity_;
-  std::unique_ptr<Session> session_;  ///< while streaming
 };
 
 }  // namespace pleinair::hal::libcamera

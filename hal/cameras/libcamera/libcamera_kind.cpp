@@ -67,7 +67,8 @@ CameraDescription descriptionOf(const FoundCamera& camera) {
   return {
       .identity = {.backend = "libcamera", .id = camera.id, .description = printable(camera.model)},
       .path = camera.id,
-      .areModesKnown = false};
+      .areModesKnown = false,
+      .kept = camera.kept};
 }
 
 }  // namespace

@@ -25,6 +25,9 @@ struct FoundCamera {
   std::string id;     ///< lasting: "/base/soc/i2c0mux/i2c@1/imx708@1a"
   std::string model;  ///< "imx708"; may be empty
   bool isUsb = false;
+  /// What the library keeps of the listing while this is held, so that open() is quick; may be
+  /// null.
+  std::shared_ptr<const void> kept = nullptr;
 };
 
 struct OfferedFormat {

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <utility>
 
 #include <fcntl.h>
-#include <linux/dma-buf.h>
-#include <sys/ioctl.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 namespace pleinair::hal::libcamera {
@@ -16,62 +14,45 @@ Result<std::shared_ptr<MappedBuffer>> MappedBuffer::map(std::span<const BufferPl
   mapped->memory.planeCount = static_cast<int>(std::min<std::size_t>(planes.size(), 3));
   for (std::size_t i = 0; i < static_cast<std::size_t>(mapped->memory.planeCount); ++i) {
     const BufferPlane& plane = planes[i];
-    const std::span<const std::uint8_t> whole = mapped->view(plane.fd);
-    if (whole.empty() || plane.offset > whole.size()) {
+    const Shared* const shared = mapped->shared(plane.fd);
+    if (shared == nullptr || plane.offset > shared->memory.bytes().size()) {
       return tl::unexpected(
-          errnoError({}, "its buffers cannot be mapped", whole.empty() ? errno : EINVAL));
+          errnoError({}, "its buffers cannot be mapped", shared == nullptr ? errno : EINVAL));
     }
+    const std::span<const std::uint8_t> whole = shared->memory.bytes();
     mapped->memory.planes.at(i) =
         whole.subspan(plane.offset, std::min(plane.length, whole.size() - plane.offset));
-    mapped->memory.dmaBufs.at(i) = mapped->descriptors_.at(plane.fd);
+    mapped->memory.dmaBufs.at(i) = shared->descriptor.get();
     mapped->memory.offsets.at(i) = plane.offset;
   }
   return mapped;
 }
 
-MappedBuffer::~MappedBuffer() {
-  for (const auto& [fd, bytes] : mappings_) {
-    munmap(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
-  }
-  for (const auto& [fd, own] : descriptors_) close(own);
-}
-
 void MappedBuffer::beginRead() const {
-  sync(DMA_BUF_SYNC_START);
+  sync(DmaBufAccess::kBeginRead);
 }
 
 void MappedBuffer::endRead() const {
-  sync(DMA_BUF_SYNC_END);
+  sync(DmaBufAccess::kEndRead);
 }
 
-void MappedBuffer::sync(std::uint64_t flag) const {
-  dma_buf_sync request{};
-  request.flags = DMA_BUF_SYNC_READ | flag;
-  for (const auto& [fd, own] : descriptors_) {
-    while (ioctl(own, DMA_BUF_IOCTL_SYNC, &request) < 0 && (errno == EINTR || errno == EAGAIN)) {
-    }
-  }
+void MappedBuffer::sync(DmaBufAccess access) const {
+  for (const auto& [fd, shared] : shared_) syncDmaBuf(shared.descriptor.get(), access);
 }
 
-std::span<const std::uint8_t> MappedBuffer::view(int fd) {
-  if (const auto found = mappings_.find(fd); found != mappings_.end()) return found->second;
+const MappedBuffer::Shared* MappedBuffer::shared(int fd) {
+  if (const auto found = shared_.find(fd); found != shared_.end()) return &found->second;
   const off_t size = lseek(fd, 0, SEEK_END);
   if (size <= 0) {
     if (size == 0) errno = EINVAL;
-    return {};
+    return nullptr;
   }
-  const int own = fcntl(fd, F_DUPFD_CLOEXEC, 0);
-  if (own < 0) return {};
-  const auto bytes = static_cast<std::size_t>(size);
-  void* const address = mmap(nullptr, bytes, PROT_READ, MAP_SHARED, own, 0);
-  if (address == MAP_FAILED) {
-    const int error = errno;
-    close(own);
-    errno = error;
-    return {};
+  Shared own{.descriptor = FileDescriptor(fcntl(fd, F_DUPFD_CLOEXEC, 0)), .memory = {}};
+  if (own.descriptor) {
+    own.memory = MappedMemory::map(own.descriptor.get(), static_cast<std::size_t>(size));
   }
-  descriptors_[fd] = own;
-  return mappings_[fd] = {static_cast<const std::uint8_t*>(address), bytes};
+  if (!own.memory) return nullptr;
+  return &shared_.emplace(fd, std::move(own)).first->second;
 }
 
 }  // namespace pleinair::hal::libcamera

@@ -8,8 +8,11 @@
 #include <vector>
 
 #include "hal/cameras/libcamera/library.h"
+#include "hal/dma_buf_sync.h"
 #include "hal/error.h"
+#include "hal/file_descriptor.h"
 #include "hal/frame_image.h"
+#include "hal/mapped_memory.h"
 
 namespace pleinair::hal::libcamera {
 
@@ -27,7 +30,6 @@ class MappedBuffer final : public ReadAccess {
   /// kIo and others of mmap().
   static Result<std::shared_ptr<MappedBuffer>> map(std::span<const BufferPlane> planes);
   MappedBuffer() { memory.access = this; }
-  ~MappedBuffer();
   MappedBuffer(const MappedBuffer&) = delete;
   MappedBuffer& operator=(const MappedBuffer&) = delete;
 
@@ -37,12 +39,16 @@ class MappedBuffer final : public ReadAccess {
   BufferMemory memory;
 
  private:
-  /// Memory that is no dma-buf needs none.
-  void sync(std::uint64_t flag) const;
-  std::span<const std::uint8_t> view(int fd);
+  /// A dma-buf, by a descriptor of this one's own.
+  struct Shared {
+    FileDescriptor descriptor;
+    MappedMemory memory;
+  };
+  void sync(DmaBufAccess access) const;
+  /// What a borrowed descriptor refers to, mapped at first; null with errno where it cannot be.
+  const Shared* shared(int fd);
 
-  std::map<int, std::span<const std::uint8_t>> mappings_;
-  std::map<int, int> descriptors_;
+  std::map<int, Shared> shared_;  ///< by the borrowed descriptors
 };
 
 }  // namespace pleinair::hal::libcamera

@@ -1,48 +1,34 @@
 #include "hal/cameras/libcamera/settings.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+
+#include "hal/cameras/missing_control.h"
 
 namespace pleinair::hal::libcamera {
 namespace {
 
+constexpr std::array<std::string_view, kControls.size()> kControlNames{"exposure", "gain", "focus",
+                                                                       "white_balance"};
+
 std::string_view nameOf(Control control) {
-  switch (control) {
-    case Control::kExposure:
-      return "exposure";
-    case Control::kGain:
-      return "gain";
-    case Control::kFocus:
-      return "focus";
-    case Control::kWhiteBalance:
-      return "white_balance";
-  }
-  return "";
+  return kControlNames.at(static_cast<std::size_t>(control));
 }
 
-Error missing(Device& device, const std::string& what) {
-  std::vector<std::string> has;
-  for (const Control each : kControls) {
-    const bool hasValue = device.range(each).has_value();
-    const bool hasAutomatic = device.hasAutomatic(each);
-    if (!hasValue && !hasAutomatic) continue;
-    has.push_back(fmt::format("{}{}", nameOf(each),
-                              !hasValue       ? " (auto only)"
-                              : !hasAutomatic ? " (no auto)"
-                                              : ""));
-  }
-  return {.kind = ErrorKind::kUnsupported,
-          .problem = "has no control of " + what,
-          .remedy = has.empty() ? "remove the setting; the camera has no such controls"
-                                : fmt::format("remove the setting; the camera has {}",
-                                              fmt::join(has, ", "))};
+Error missing(Device& device, std::string_view what) {
+  std::array<OfferedControl, kControls.size()> offered;
+  std::ranges::transform(kControls, offered.begin(), [&](Control each) -> OfferedControl {
+    return {.name = nameOf(each),
+            .hasValue = device.range(each).has_value(),
+            .hasAutomatic = device.hasAutomatic(each)};
+  });
+  return missingControl(what, offered);
 }
 
 template <class T, class ToUnits>
@@ -58,7 +44,7 @@ Result<void> set(Device& device, Control control, const std::optional<AutomaticO
     return {};
   }
   const std::optional<ControlRange> range = device.range(control);
-  if (!range) return tl::unexpected(missing(device, std::string(nameOf(control))));
+  if (!range) return tl::unexpected(missing(device, nameOf(control)));
   const double value = toUnits(std::get<T>(*wanted), *range);
   setting = std::clamp(std::isnan(value) ? range->min : value, range->min,
                        std::max(range->min, range->max));

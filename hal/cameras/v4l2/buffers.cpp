@@ -7,8 +7,9 @@
 #include <utility>
 
 #include <fcntl.h>
-#include <linux/dma-buf.h>
 #include <linux/videodev2.h>
+
+#include "hal/dma_buf_sync.h"
 
 namespace pleinair::hal::v4l2 {
 namespace {
@@ -108,12 +109,11 @@ Result<Buffer> borrowBuffer(const Device& device, FrameAllocator& allocator,
   return buffer;
 }
 
-/// Begins or ends reading of each dma-buf.
-void sync(const Buffer& buffer, std::uint64_t flag) {
+void syncAll(const Buffer& buffer, DmaBufAccess access) {
   for (const BufferPlane& plane : buffer.planes) {
-    dma_buf_sync request{.flags = DMA_BUF_SYNC_READ | flag};
-    // A dma-buf without the call is coherent.
-    buffer.systemCalls->ioctl(plane.dmaBuf.get(), DMA_BUF_IOCTL_SYNC, &request);
+    syncDmaBuf(plane.dmaBuf.get(), access, [&](int fd, unsigned long request, void* argument) {
+      return buffer.systemCalls->ioctl(fd, request, argument);
+    });
   }
 }
 
@@ -138,11 +138,11 @@ Error tooFew(const Device& device, std::uint32_t count) {
 }  // namespace
 
 void Buffer::beginRead() const {
-  sync(*this, DMA_BUF_SYNC_START);
+  syncAll(*this, DmaBufAccess::kBeginRead);
 }
 
 void Buffer::endRead() const {
-  sync(*this, DMA_BUF_SYNC_END);
+  syncAll(*this, DmaBufAccess::kEndRead);
 }
 
 Result<BufferSet> BufferSet::allocate(const Device& device,

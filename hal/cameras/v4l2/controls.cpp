@@ -1,6 +1,7 @@
 #include "hal/cameras/v4l2/controls.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -11,6 +12,8 @@
 #include <vector>
 
 #include <linux/videodev2.h>
+
+#include "hal/cameras/missing_control.h"
 
 namespace pleinair::hal::v4l2 {
 namespace {
@@ -127,20 +130,18 @@ Pair whiteBalancePair(const Device& device) {
 }
 
 Error missing(const Device& device, const std::string& what) {
-  std::string has;
-  for (const Pair& pair :
-       {exposurePair(device), gainPair(device), focusPair(device), whiteBalancePair(device)}) {
-    if (!pair.value && !pair.loop) continue;
-    has += has.empty() ? "" : ", ";
-    has += pair.name;
-    if (!pair.value) has += " (auto only)";
-    if (!pair.loop) has += " (no auto)";
-  }
-  return {.kind = ErrorKind::kUnsupported,
-          .subject = device.node(),
-          .problem = "has no control of " + what + " (" + device.capability().card + ")",
-          .remedy = has.empty() ? "remove the setting; the device has no such controls"
-                                : "remove the setting; the device has " + has};
+  const std::array pairs{exposurePair(device), gainPair(device), focusPair(device),
+                         whiteBalancePair(device)};
+  std::array<OfferedControl, pairs.size()> offered;
+  std::ranges::transform(pairs, offered.begin(), [](const Pair& pair) -> OfferedControl {
+    return {.name = pair.name,
+            .hasValue = pair.value.has_value(),
+            .hasAutomatic = pair.loop.has_value()};
+  });
+  Error error = missingControl(what, offered);
+  error.subject = device.node();
+  error.problem += " (" + device.capability().card + ")";
+  return error;
 }
 
 Result<std::string> setAutomatic(const Device& device, const Pair& pair) {

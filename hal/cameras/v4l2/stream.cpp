@@ -10,23 +10,6 @@
 namespace pleinair::hal::v4l2 {
 namespace {
 
-/// Tells the stream that a buffer is free when the last copy is dropped; keeps the mapping until
-/// then.
-class Lease {
- public:
-  Lease(std::shared_ptr<const Buffer> buffer, std::shared_ptr<ReturnedBuffers> returns,
-        std::uint32_t index)
-      : buffer_(std::move(buffer)), returns_(std::move(returns)), index_(index) {}
-  ~Lease() { returns_->put(index_); }
-  Lease(const Lease&) = delete;
-  Lease& operator=(const Lease&) = delete;
-
- private:
-  std::shared_ptr<const Buffer> buffer_;
-  std::shared_ptr<ReturnedBuffers> returns_;
-  std::uint32_t index_;
-};
-
 /// A v4l2_buffer with the plane array that the multi-planar interface requires.
 struct BufferRequest {
   BufferRequest(const Device& device, std::uint32_t memory) {
@@ -126,13 +109,10 @@ int Stream::queue(std::uint32_t index) {
 }
 
 int Stream::queueReturned() {
-  returned_.clear();
-  returns_->take(returned_);
   int failure = 0;
-  for (const std::uint32_t index : returned_) {
-    --lent_;
+  leases_.takeBack([&](std::uint32_t index) {
     if (const int answer = queue(index); answer < 0) failure = answer;
-  }
+  });
   return failure;
 }
 
@@ -160,8 +140,7 @@ int Stream::dequeue(Filled& filled) {
 }
 
 std::shared_ptr<const void> Stream::lend(std::uint32_t index) {
-  ++lent_;
-  return std::make_shared<const Lease>(buffers_.at(index), returns_, index);
+  return leases_.lend(index, buffers_.at(index));
 }
 
 }  // namespace pleinair::hal::v4l2

@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
+#include "hal/buffer_leases.h"
 #include "hal/cameras/v4l2/buffers.h"
 #include "hal/cameras/v4l2/format.h"
 #include "hal/clock.h"
-#include "hal/returned_buffers.h"
 
 namespace pleinair::hal::v4l2 {
 
@@ -51,10 +51,10 @@ class Stream {
   /// Whether its buffers have dma-bufs, of the driver's or of others.
   bool hasDmaBufs() const { return static_cast<bool>(buffers_.at(0)->planes.at(0).dmaBuf); }
   /// Whether lending one more dequeued buffer would leave the driver with none.
-  bool mustKeepTheNext() const { return lent_ + 1 >= buffers_.count(); }
+  bool mustKeepTheNext() const { return leases_.count() + 1 >= buffers_.count(); }
   /// Whether leases will cause an underrun unless dequeue() comes in time: the driver has one
   /// buffer left.
-  bool isStarving() const { return lent_ > 0 && lent_ + 1 >= buffers_.count(); }
+  bool isStarving() const { return leases_.count() > 0 && leases_.count() + 1 >= buffers_.count(); }
   bool hasEvents() const { return hasEvents_; }
 
  private:
@@ -62,9 +62,7 @@ class Stream {
 
   const Device& device_;
   BufferSet buffers_;
-  std::shared_ptr<ReturnedBuffers> returns_ = std::make_shared<ReturnedBuffers>();
-  std::vector<std::uint32_t> returned_;  ///< scratch
-  std::uint32_t lent_ = 0;
+  BufferLeases leases_;
   bool hasEvents_ = false;
 };
 

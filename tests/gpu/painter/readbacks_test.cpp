@@ -1,4 +1,5 @@
 #include "tests/gpu/painter/painter_fixture.h"
+#include "tests/support/process_resources.h"
 
 namespace pleinair {
 namespace {
@@ -99,6 +100,30 @@ TEST_F(PainterTest, PaintsTheSameWhateverReadbacksComeAndGo) {
     EXPECT_EQ(painted(read, testFrame(i)), painted(plain, testFrame(i))) << i;
     if (i % 2 == 0) read.closeReadback(readback);
   }
+}
+
+TEST_F(PainterTest, ReadbacksThatComeAndGoLeaveNoMemoryBehind) {
+  Painter painter(kPlain);
+  int frames = 0;
+  const auto comeAndGo = [&](int times) {
+    for (int i = 0; i < times; ++i) {
+      const int readback = painter.openReadback({PixelFormat::kRgba8, {640, 360}});
+      paintFrames(painter, frames, frames + 2);
+      frames += 2;
+      OutputFrame picture;
+      ASSERT_TRUE(hal::orThrow(painter.wait(readback, picture)));
+      painter.closeReadback(readback);
+    }
+  };
+  comeAndGo(5);
+  const std::size_t before = support::ProcessResources::allocatedBytes();
+  comeAndGo(20);
+  const std::size_t half = support::ProcessResources::allocatedBytes();
+  comeAndGo(20);
+  const std::size_t after = support::ProcessResources::allocatedBytes();
+  RecordProperty("first_half_bytes", static_cast<int>(half) - static_cast<int>(before));
+  RecordProperty("second_half_bytes", static_cast<int>(after) - static_cast<int>(half));
+  EXPECT_LT(after, half + 50'000) << "a picture alone has 900,000 bytes";
 }
 
 TEST_F(PainterTest, WaitsForTheOldestPictureOfAllReadbacks) {

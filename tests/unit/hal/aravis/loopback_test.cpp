@@ -94,6 +94,21 @@ TEST_F(AravisLoopbackTest, DeliversThePixelsThatWereSent) {
   }
 }
 
+TEST_F(AravisLoopbackTest, FramesInPacketsThatTheNetworkDoesNotTakeAreInvalid) {
+  if (!kHasPrivateNetwork || !support::setLoopbackMtu(1000)) GTEST_SKIP() << "its MTU is not ours";
+  const auto large = camera({.pixelFormat = "Mono8", .packetBytes = 1500});
+  const auto stream = large->start({.size = FrameSize{320, 240}, .framePeriod = 20ms});
+  ASSERT_TRUE(stream) << stream.error().message();
+  for (int n = 0; n < 5; ++n) {
+    const NextFrame next = large->next(clock_.now() + 2s);
+    const auto* frame = std::get_if<CapturedFrame>(&next);
+    // The packets that begin and end a frame are small enough.
+    ASSERT_NE(frame, nullptr) << n;
+    EXPECT_NE(frame->health, FrameHealth::kValid) << n;
+  }
+  EXPECT_TRUE(support::setLoopbackMtu(65536));
+}
+
 TEST_F(AravisLoopbackTest, TriggersBySoftware) {
   const auto camera = this->camera({.pixelFormat = "Mono8", .trigger = "software"});
   ASSERT_TRUE(camera->start({.size = FrameSize{64, 48}, .framePeriod = 50ms}));

@@ -166,16 +166,41 @@ class HostedLibraryTest : public testing::Test {
 };
 
 TEST_F(HostedLibraryTest, ListsAndRefusesAsTheLibraryDoes) {
-  const auto found = library_.list();
+  auto found = library_.list();
   ASSERT_TRUE(found) << found.error().message();
   ASSERT_EQ(found->size(), 1u);
   EXPECT_EQ(found->front().id, sensor.id);
   EXPECT_EQ(found->front().model, sensor.model);
+  found->clear();
+  EXPECT_FALSE(isThere(started[0])) << "the process of a listing lives while its cameras are held";
   sensor.isBusy = true;
   const auto device = library_.open(sensor.id);
   ASSERT_FALSE(device);
   EXPECT_EQ(device.error().kind, ErrorKind::kBusy);
   EXPECT_EQ(device.error().problem, "cannot be taken");
+}
+
+TEST_F(HostedLibraryTest, ACameraTakesOverTheProcessThatFoundIt) {
+  auto found = library_.list();
+  ASSERT_TRUE(found);
+  ASSERT_TRUE(start());
+  EXPECT_EQ(started.size(), 1u) << "it has looked for devices already";
+  found->clear();
+  EXPECT_EQ(frame().health, FrameHealth::kValid) << "and is the camera's now";
+  const auto second = library_.open(sensor.id);
+  EXPECT_EQ(started.size(), 2u) << "each open camera has its own";
+  camera_.reset();
+  EXPECT_FALSE(isThere(started[0]));
+}
+
+TEST_F(HostedLibraryTest, AProcessThatEndedSinceItsListingHoldsUpNoCamera) {
+  const auto found = library_.list();
+  ASSERT_TRUE(found);
+  kill(started[0], SIGKILL);  // as libcamera does when a device returns that it has not let go of
+  const auto format = start();
+  ASSERT_TRUE(format) << format.error().message();
+  EXPECT_EQ(started.size(), 2u);
+  EXPECT_EQ(frame().health, FrameHealth::kValid);
 }
 
 TEST_F(HostedLibraryTest, FramesAreInMemoryOfBoth) {
@@ -218,7 +243,7 @@ TEST_F(HostedLibraryTest, ControlsAndWishesArrive) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().message(),
             "libcamera:" + sensor.id +
-                ": has no control of focus; remove the setting; the camera has exposure (no auto), "
+                ": has no control of focus; remove the setting; the device has exposure (no auto), "
                 "gain");
 }
 

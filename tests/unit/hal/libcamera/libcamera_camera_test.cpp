@@ -58,6 +58,20 @@ TEST_F(LibcameraCameraTest, FaultyFramesAreCorrupt) {
   EXPECT_TRUE(small.image.isComplete());
 }
 
+TEST_F(LibcameraCameraTest, FramesThatTheDriverHasNotFilledAreIncomplete) {
+  for (const bool arePlanesSeparate : {false, true}) {
+    sensor.arePlanesSeparate = arePlanesSeparate;
+    sensor.frames[0] = {.missingBytes = 1};
+    sensor.frames[2] = {.isFaulty = true, .missingBytes = 1};
+    ASSERT_TRUE(start());
+    const CapturedFrame small = frame();
+    EXPECT_EQ(small.health, FrameHealth::kIncomplete) << arePlanesSeparate;
+    EXPECT_TRUE(small.image.isComplete()) << "its memory is there";
+    EXPECT_EQ(frame().health, FrameHealth::kValid) << arePlanesSeparate;
+    EXPECT_EQ(frame().health, FrameHealth::kCorrupt) << "what the driver says of it comes first";
+  }
+}
+
 TEST_F(LibcameraCameraTest, TrustsTimesOfTheSteadyClockOnly) {
   const auto at = [&](Duration time) {
     return support::FakeSensorFrame{.timestamp = time, .sensorTime = 7s};
@@ -70,7 +84,10 @@ TEST_F(LibcameraCameraTest, TrustsTimesOfTheSteadyClockOnly) {
   const CapturedFrame first = frame();
   EXPECT_EQ(first.captureTime, begin + 30ms);
   EXPECT_EQ(first.deviceTime, Duration(7s));
-  EXPECT_EQ(frame().captureTime, begin + 80ms) << "its arrival";
+  EXPECT_EQ(first.timestampSource, TimestampSource::kEndOfReadout);
+  const CapturedFrame second = frame();
+  EXPECT_EQ(second.captureTime, begin + 80ms);
+  EXPECT_EQ(second.timestampSource, TimestampSource::kArrival);
   EXPECT_EQ(frame().captureTime, begin + 120ms);
 }
 

@@ -55,12 +55,12 @@ TEST_F(LibcameraSettingsTest, SwitchesAutomaticControlsOn) {
 TEST_F(LibcameraSettingsTest, SaysWhichControlsThereAre) {
   EXPECT_EQ(failure({.controls = {.whiteBalance = 5000.0}}),
             "libcamera:/base/i2c/imx708@1a: has no control of white_balance; remove the setting; "
-            "the camera has exposure, gain, focus (no auto), white_balance (auto only)");
+            "the device has exposure, gain, focus (no auto), white_balance (auto only)");
   EXPECT_THAT(failure({.controls = {.focus = Automatic{}}}),
               HasSubstr("has no control of automatic focus"));
   sensor.ranges.clear();
   sensor.automatic.clear();
-  EXPECT_THAT(failure({.controls = {.gain = 0.5}}), HasSubstr("the camera has no such controls"));
+  EXPECT_THAT(failure({.controls = {.gain = 0.5}}), HasSubstr("the device has no such controls"));
 }
 
 }  // namespace

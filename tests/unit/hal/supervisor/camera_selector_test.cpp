@@ -61,6 +61,26 @@ TEST_F(CameraSelectorTest, AutoAsksABackEndOnlyWhenThoseBeforeItHaveFailed) {
   EXPECT_EQ(usb_->lists, 1);
 }
 
+TEST_F(CameraSelectorTest, LooksAgainWhereDevicesComeWhileItLooks) {
+  CameraSelector chosen = selector("auto");
+  csi_->whenListed = [&] {
+    if (csi_->lists != 1) return;
+    csi_->add("sensor", {sound_}, "/dev/video0");  // too late for this listing
+    chosen.devicesChanged();
+  };
+  EXPECT_EQ(told(chosen.open({})), "csi:sensor");
+  EXPECT_EQ(csi_->lists, 2);
+  EXPECT_EQ(usb_->lists, 0) << "asking may take a second";
+}
+
+TEST_F(CameraSelectorTest, GivesUpOnDevicesThatComeAndGoForEver) {
+  usb_->add("webcam", {sound_}, "/dev/video1");
+  CameraSelector chosen = selector("auto");
+  csi_->whenListed = [&] { chosen.devicesChanged(); };
+  EXPECT_EQ(told(chosen.open({})), "usb:webcam");
+  EXPECT_EQ(csi_->lists, 4);
+}
+
 TEST_F(CameraSelectorTest, FollowsACameraToTheNodeThatItGotAfterAReset) {
   const auto device = usb_->add("046d:0825", {sound_}, "/dev/video0");
   const auto other = usb_->add("046d:9999", {sound_}, "/dev/video2");
