@@ -76,20 +76,22 @@ Moved measuredAt(vec2 px, float object, bool isOnMover, bool isBesideMover, Move
   if (isResting) return Moved(vec2(0.0), kNoTurn, known.w, kSourcePicture);
 
   bool isPlain = isOnMover ? !hasOwn : !isBesideMover;  // like every place of the image
-  Moved plane = nothingKnown();
-  if (object == 0.0 && !hasOwn) plane = byPlanes(px, false);
-  if (isPlain) return bestOf(px, object, false, flowed, restError, plane);
-  Moved whole = byPicture(px, false);
+  Moved image = isPlain ? bestOfImage(px, object, false, flowed, restError) : byPicture(px, false);
   if (hasOwn) {
     const float kError = 1.0;  // px
-    if (!restsWithCamera) own += whole.displacement;
+    if (!restsWithCamera) own += image.displacement;
     if (isFlowKnown) own += seenPart(flowed.displacement - own, px + own);
     return Moved(own, isFlowKnown ? flowed.jacobian : kNoTurn, kError, kSourceFlow);
   }
-  if (object != 0.0) return whole;
+  if (object != 0.0) {
+    if (isPlain) image.error = max(image.error, kMinError);
+    return image;
+  }
+  Moved plane = byPlanes(px, false);
+  if (isPlain) return bestWithPlane(image, plane, flowed, restError);
   // Before the camera, a plane may be much nearer than most of the image.
-  whole.error = length(vec2(whole.error, contradicted(whole, plane.displacement, plane.error)));
-  return better(whole, plane);
+  image.error = length(vec2(image.error, contradicted(image, plane.displacement, plane.error)));
+  return better(image, plane);
 }
 
 // On a real thing: the motion of its surface or the measured one. Where both are far apart, the less
@@ -208,9 +210,8 @@ void main() {
     vec2 mover = moverAt(px);
     isBehind = !isOnMover && mover.r > (wasCovered ? 0.1 : 0.25);
     bool isOther = false;
-    if (isBehind) {
-      isOther = isUnlikeBackground(looks, px);
-    } else {
+    bool asksBackground = isBehind;
+    if (!isBehind) {
       looks = remembered(looks, px, !isOnMover && nearestMover(px, kOutline) > 0.1);
       isHidden = isMismatch(looks, (state & kHidden) != 0u);
       isOther = isOnMover && isUnlike(looks);
@@ -220,9 +221,11 @@ void main() {
         isOther = isOther || !isNewBackground(px);
         if (isReal(objectOf(id))) object = objectOf(id);
       } else if (wasCovered) {
-        isOther = isUnlike(looks) && isUnlikeBackground(looks, px);
+        isOther = false;
+        asksBackground = isUnlike(looks);
       }
     }
+    isOther = isOther || (asksBackground && isUnlikeBackground(looks, px));
     isGone = isGone || isOther;
   }
   // An anchor that has no point of its surface yet, or has come too far from it, takes the one that

@@ -69,6 +69,58 @@ bool isInImage(vec2 px) {
   return all(greaterThanEqual(px, vec2(0.0))) && all(lessThan(px, fullSize));
 }
 
+// An anchor's point and its triangle, as a camera sees them in one frame.
+struct View {
+  vec3 place;      // m, camera frame
+  vec3 normal;
+  vec2 px;
+  vec2 sides[2];   // px: from the first corner to the others
+  float nearest;   // m: the depth of the nearest corner
+};
+
+View viewOf(vec4 pose[3], SurfacePoint point, uint firstVertex) {
+  View seen;
+  seen.nearest = 1.0e12;
+  vec3 sum = vec3(0.0);
+  vec3 first;
+  vec3 second;
+  vec2 firstPx;
+  for (int i = 0; i < 3; ++i) {
+    vec3 corner = cornerOf(point, i, firstVertex);
+    sum += point.barycentrics[i] * corner;
+    vec3 at = transformed(pose, corner);
+    vec2 px = projected(at);
+    seen.nearest = min(seen.nearest, at.z);
+    if (i == 0) {
+      first = at;
+      firstPx = px;
+    } else if (i == 1) {
+      second = at;
+      seen.sides[0] = px - firstPx;
+    } else {
+      seen.normal = normalize(cross(second - first, at - first));
+      seen.sides[1] = px - firstPx;
+    }
+  }
+  seen.place = transformed(pose, sum);
+  seen.px = projected(seen.place);
+  return seen;
+}
+
+// The affine map of a triangle from its previous corners to its current ones, column by column.
+vec4 jacobianOf(View was, View now) {
+  if (min(was.nearest, now.nearest) <= 0.0) return kNoTurn;
+  vec2 u = was.sides[0];
+  vec2 v = was.sides[1];
+  float area = u.x * v.y - u.y * v.x;
+  float longest = max(dot(u, u), dot(v, v));
+  // An edge-on triangle gives no direction across it.
+  if (abs(area) <= 0.02 * longest) return kNoTurn;
+  vec2 a = now.sides[0];
+  vec2 b = now.sides[1];
+  return vec4(a * v.y - b * u.y, b * u.x - a * v.x) / area;
+}
+
 void main() {
   uint slot = gl_GlobalInvocationID.x;
   if (slot >= slots) return;
@@ -83,98 +135,58 @@ void main() {
   anchors[slot].displacement = vec2(0.0);
   anchors[slot].jacobian = kNoTurn;
   anchors[slot].error = kUnknownError;
-  uint kept = state & ~kSourceBits;
-  if (sleeps) {
-    anchors[slot].state = state | kHidden;
-    if (places.w == 0u) return;
-    uvec4 entry = triangles[places.x + numberOf(surface)];
-    vec2 part = unpackUnorm2x16(anchors[slot].barycentrics);
-    SurfacePoint point = SurfacePoint(entry.xyz, entry.w, vec3(part, 1.0 - part.x - part.y));
-    vec3 place = transformed(bodies[index].current, positionOf(point, places.y));
-    if (place.z <= 0.0) return;
-    vec2 px = projected(place);
-    anchors[slot].px = px;
-    if (!isInImage(px)) return;
-    vec3 corners[3];
-    for (int i = 0; i < 3; ++i) {
-      corners[i] = transformed(bodies[index].current, cornerOf(point, i, places.y));
-    }
-    vec3 normal = normalize(cross(corners[1] - corners[0], corners[2] - corners[0]));
-    if (seenAt(px, object, place, normal) == kSeen) anchors[slot].state = state & ~kHidden;
-    return;
-  }
+  // A real thing is still to be seen without its model: the anchor goes on in the image.
+  uint inImage = state & ~(kSourceBits | kOnSurface | kTurnedAway);
   if (places.w == 0u) {
-    // A real thing is still to be seen without its model: the anchor goes on in the image.
-    if (isReal) anchors[slot].surface = 0u;
-    anchors[slot].state = isReal ? kept & ~(kOnSurface | kTurnedAway)
-                                 : (state & (kAlive | kDying | kOnSurface)) | kHidden;
+    if (isReal && !sleeps) anchors[slot].surface = 0u;
+    uint hidden = (state & (kAlive | kDying | kOnSurface)) | kHidden;
+    anchors[slot].state = sleeps ? state | kHidden : isReal ? inImage : hidden;
     return;
   }
 
   uvec4 entry = triangles[places.x + numberOf(surface)];
   vec2 part = unpackUnorm2x16(anchors[slot].barycentrics);
   SurfacePoint point = SurfacePoint(entry.xyz, entry.w, vec3(part, 1.0 - part.x - part.y));
-  vec3 place = transformed(bodies[index].current, positionOf(point, places.y));
-  if (place.z <= 0.0) {
-    anchors[slot].state = isReal ? kept & ~(kOnSurface | kTurnedAway) : stateAfter(state, true);
+  View now = viewOf(bodies[index].current, point, places.y);
+  if (now.place.z <= 0.0) {
+    anchors[slot].state = sleeps ? state | kHidden : isReal ? inImage : stateAfter(state, true);
     return;
   }
-  vec3 corners[3];
-  for (int i = 0; i < 3; ++i) {
-    corners[i] = transformed(bodies[index].current, cornerOf(point, i, places.y));
+  if (!isReal || sleeps) anchors[slot].px = now.px;
+  if (sleeps && !isInImage(now.px)) {
+    anchors[slot].state = state | kHidden;
+    return;
   }
-  vec3 normal = normalize(cross(corners[1] - corners[0], corners[2] - corners[0]));
-  vec2 px = projected(place);
-  vec2 shift = vec2(0.0);
-  vec2 off = vec2(0.0);  // of a real anchor from its point
-  vec4 jacobian = kNoTurn;
-  float error = kUnknownError;
+  uint seen = seenAt(now.px, object, now.place, now.normal);
+  if (sleeps) {
+    anchors[slot].state = seen == kSeen ? state & ~kHidden : state | kHidden;
+    return;
+  }
   uint source = kSourceUnknown;
-  if (bodies[index].turnsAbout.w != 0.0) {
-    vec3 before = transformed(bodies[index].previous, positionOf(point, places.z));
-    if (before.z > 0.0) {
-      vec2 wasPx = projected(before);
-      shift = px - wasPx;
-      source = kSourceSurface;
-      error = isReal ? predictedError(bodies[index], place) : 0.0;
-      // The triangle's affine map from its previous corners to its current ones.
-      vec3 was[3];
-      for (int i = 0; i < 3; ++i) {
-        was[i] = transformed(bodies[index].previous, cornerOf(point, i, places.z));
-      }
-      bool isBefore = min(min(was[0].z, was[1].z), was[2].z) > 0.0 &&
-                      min(min(corners[0].z, corners[1].z), corners[2].z) > 0.0;
-      if (isBefore) {
-        vec2 u = projected(was[1]) - projected(was[0]);
-        vec2 v = projected(was[2]) - projected(was[0]);
-        vec2 a = projected(corners[1]) - projected(corners[0]);
-        vec2 b = projected(corners[2]) - projected(corners[0]);
-        float area = u.x * v.y - u.y * v.x;
-        float longest = max(dot(u, u), dot(v, v));
-        // An edge-on triangle gives no direction across it.
-        if (abs(area) > 0.02 * longest) {
-          jacobian = vec4(a * v.y - b * u.y, b * u.x - a * v.x) / area;
-        }
-      }
-      if (isReal) {
-        off = anchors[slot].px - wasPx;
-        shift += mat2(jacobian.xy, jacobian.zw) * off - off;
-      }
+  vec2 off = vec2(0.0);  // of a real anchor from its point
+  View was;
+  was.place = vec3(0.0);
+  if (bodies[index].turnsAbout.w != 0.0) was = viewOf(bodies[index].previous, point, places.z);
+  if (was.place.z > 0.0) {
+    source = kSourceSurface;
+    vec2 shift = now.px - was.px;
+    vec4 jacobian = jacobianOf(was, now);
+    if (isReal) {
+      off = anchors[slot].px - was.px;
+      shift += mat2(jacobian.xy, jacobian.zw) * off - off;
     }
+    anchors[slot].displacement = shift;
+    anchors[slot].jacobian = jacobian;
+    anchors[slot].error = isReal ? predictedError(bodies[index], now.place) : 0.0;
   }
-  uint seen = seenAt(px, object, place, normal);
-  anchors[slot].displacement = shift;
-  anchors[slot].jacobian = jacobian;
-  anchors[slot].error = error;
   if (isReal) {
-    uint flags = kept & ~kTurnedAway;
+    uint flags = state & ~(kSourceBits | kTurnedAway);
     if (seen == kOtherPart) flags |= kTurnedAway;
     if (dot(off, off) > kMaxOff * kMaxOff) flags &= ~kOnSurface;
     anchors[slot].state = flags | source;
     return;
   }
-  anchors[slot].px = px;
-  bool isGone = any(lessThan(px, vec2(-margin))) || any(greaterThan(px, fullSize + margin));
+  bool isGone = any(lessThan(now.px, vec2(-margin))) || any(greaterThan(now.px, fullSize + margin));
   uint flags = (state & (kAlive | kDying | kOnSurface)) | (seen == kSeen ? 0u : kHidden);
   anchors[slot].state = isGone ? stateAfter(state, true) : flags | source;
 }

@@ -1,6 +1,7 @@
 // Purpose: averages the camera image over time along its motion (marks/filtered_frame.h). One
-//          invocation does a block of 4x4 pixels with a single displacement, so that the past of
-//          all of them takes 7x7 reads.
+//          invocation does a block of 4x4 pixels with a single displacement, two columns at a
+//          time and down these with the last rows kept, so that the past of eight pixels takes
+//          5x7 reads.
 // Inputs:  filtered_frame.glsl's; backward (marks/motion_field.h); pixelsOfFull.
 // Outputs: filtered.
 // Precision: highp.
@@ -11,11 +12,7 @@ uniform sampler2D backward;
 uniform vec2 pixelsOfFull;
 
 const float kFieldPixels = 8.0;  // marks::MotionField
-
-ivec2 size;
-ivec2 corner;
-vec4 before[kBlockPixels];  // the past that belongs to each pixel
-float trust[kBlockPixels];
+const int kStrip = 2;  // pixels of a row that are done together: more have no room in registers
 
 // Catmull-Rom weights of four texels for a place f beyond the second.
 vec4 weightsOf(float f) {
@@ -23,65 +20,72 @@ vec4 weightsOf(float f) {
               ((-1.5 * f + 2.0) * f + 0.5) * f, (0.5 * f - 0.5) * f * f);
 }
 
-void followPicture() {
+vec4 unpacked(uvec2 halves) { return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y)); }
+
+void main() {
+  ivec2 size = textureSize(picture, 0);
+  ivec2 corner = ivec2(gl_GlobalInvocationID.xy) * kBlockSide;
+  if (any(greaterThanEqual(corner, size))) return;
+  ivec2 last = size - 1;
   vec2 middle = (vec2(corner) + 2.0) / pixelsOfFull;
   vec2 fields = vec2(textureSize(backward, 0));
   vec4 moved = textureLod(backward, middle / (kFieldPixels * fields), 0.0);
   vec2 from = -moved.xy * pixelsOfFull;
   bool isKnown = moved.w > 0.5 && abs(from.x) < 4096.0 && abs(from.y) < 4096.0;
   from = isKnown ? from : vec2(0.0);
-  float known = isKnown ? trustOf(moved.z * pixelsOfFull.x) : 0.0;
+  float trust = isKnown ? trustOf(moved.z * pixelsOfFull.x) : 0.0;
   vec2 whole = floor(from);
-  vec4 across = weightsOf(from.x - whole.x);
-  vec4 down = weightsOf(from.y - whole.y);
-  ivec2 first = corner + ivec2(whole) - 1;
-  for (int i = 0; i < kBlockPixels; ++i) before[i] = vec4(0.0);
-  for (int row = 0; row < 7; ++row) {
-    vec4 line[7];
-    for (int i = 0; i < 7; ++i) {
-      line[i] = texelFetch(past, clamp(first + ivec2(i, row), ivec2(0), size - 1), 0);
-    }
-    for (int x = 0; x < 4; ++x) {
-      vec4 value = across.x * line[x] + across.y * line[x + 1] + across.z * line[x + 2] +
-                   across.w * line[x + 3];
-      for (int y = 0; y < 4; ++y) {
-        int tap = row - y;
-        if (tap >= 0 && tap < 4) before[y * 4 + x] += down[tap] * value;
+  vec2 part = from - whole;
+  ivec2 offset = ivec2(whole) - 1;
+
+  ivec2 end = min(corner + kBlockSide, size);
+  for (int x = corner.x; x < end.x; x += kStrip) {
+    // The past, filtered along three rows; the fourth joins them.
+    uvec2 rows[3 * kStrip];  // halves
+    for (int i = 0; i < 3 * kStrip; ++i) rows[i] = uvec2(0u);
+    for (int y = corner.y - 3; y < end.y; ++y) {
+      vec4 line[kStrip + 3];
+      for (int i = 0; i < kStrip + 3; ++i) {
+        line[i] = texelFetch(past, clamp(ivec2(x + i, y + 3) + offset, ivec2(0), last), 0);
+      }
+      vec4 across = weightsOf(part.x);
+      vec4 down = weightsOf(part.y);
+      for (int i = 0; i < kStrip; ++i) {
+        vec4 fourth = across.x * line[i] + across.y * line[i + 1] + across.z * line[i + 2] +
+                      across.w * line[i + 3];
+        line[i] = down.x * unpacked(rows[i]) + down.y * unpacked(rows[kStrip + i]) +
+                  down.z * unpacked(rows[2 * kStrip + i]) + down.w * fourth;
+        rows[i] = rows[kStrip + i];
+        rows[kStrip + i] = rows[2 * kStrip + i];
+        rows[2 * kStrip + i] = uvec2(packHalf2x16(fourth.xy), packHalf2x16(fourth.zw));
+      }
+      uvec4 pasts = uvec4(packHalf2x16(line[0].xy), packHalf2x16(line[0].zw),
+                           packHalf2x16(line[1].xy), packHalf2x16(line[1].zw));
+      // As many as there are: of the rows before the block, none.
+      int count = y < corner.y ? 0 : kStrip;
+      for (int i = 0; i < count; ++i) {
+        vec3 sum = vec3(0.0);
+        vec3 squares = vec3(0.0);
+        vec3 now = vec3(0.0);
+        for (int row = -1; row <= 1; ++row) {
+          vec3 threeSum = vec3(0.0);
+          vec3 threeSquares = vec3(0.0);
+          for (int column = -1; column <= 1; ++column) {
+            ivec2 at = clamp(ivec2(x + i + column, y + row), ivec2(0), last);
+            vec3 colour = texelFetch(picture, at, 0).rgb;
+            threeSum += colour;
+            threeSquares += colour * colour;
+            if (row == 0 && column == 0) now = colour;
+          }
+          sum += threeSum;
+          squares += threeSquares;
+        }
+        vec4 before = unpacked(i == 0 ? pasts.xy : pasts.zw);
+        vec2 at = vec2(x + i, y) + 0.5 + from;
+        float known = isInside(at, size) ? trust * max(before.a, 0.0) : 0.0;
+        vec4 average = averaged(now, before.rgb, known, sum, squares);
+        imageStore(filtered, ivec2(x + i, y), average);  // beyond the border: no effect
       }
     }
-  }
-  for (int i = 0; i < kBlockPixels; ++i) {
-    vec2 at = vec2(corner + inBlock(i)) + 0.5 + from;
-    trust[i] = isInside(at, size) ? known * max(before[i].a, 0.0) : 0.0;
-  }
-}
-
-void main() {
-  size = textureSize(picture, 0);
-  corner = ivec2(gl_GlobalInvocationID.xy) * kBlockSide;
-  if (any(greaterThanEqual(corner, size))) return;
-  followPicture();
-
-  vec3 around[36];
-  for (int i = 0; i < 36; ++i) {
-    ivec2 p = clamp(corner + ivec2(i % 6, i / 6) - 1, ivec2(0), size - 1);
-    around[i] = texelFetch(picture, p, 0).rgb;
-  }
-  vec3 sums[24];  // of three in a row: colours, then their squares
-  vec3 squares[24];
-  for (int i = 0; i < 24; ++i) {
-    int at = (i >> 2) * 6 + (i & 3);
-    vec3 a = around[at];
-    vec3 b = around[at + 1];
-    vec3 c = around[at + 2];
-    sums[i] = a + b + c;
-    squares[i] = a * a + b * b + c * c;
-  }
-  for (int i = 0; i < kBlockPixels; ++i) {
-    vec3 now = around[(i >> 2) * 6 + (i & 3) + 7];
-    vec4 average = averaged(now, before[i].rgb, trust[i], sums[i] + sums[i + 4] + sums[i + 8],
-                            squares[i] + squares[i + 4] + squares[i + 8]);
-    // Beyond the border: no effect.
-    imageStore(filtered, corner + inBlock(i), average);
   }
 }

@@ -41,46 +41,51 @@ Moved nothingKnown() { return Moved(vec2(0.0), kNoTurn, kUnknownError, kSourceUn
 
 // --- planes of the scene
 
-// The point's position in the other frame, by the plane's motion, less px; z: depth, 0 if not
-// there.
-vec3 planeShift(Body plane, vec2 px, bool backward) {
+// The point of a plane at px: (x, y) on it, and its depth, 0 if it is not there in both frames.
+vec3 planeHit(Body plane, vec2 px, bool backward) {
   vec3 ray = rayThrough(px);
-  vec3 here;
-  vec3 there;
-  vec3 hit;
-  if (backward) {
-    hit = hitOf(plane.current, plane.extent.xy, ray);
-    there = transformed(plane.previous, vec3(hit.xy, 0.0));
-    here = transformed(plane.current, vec3(hit.xy, 0.0));
-  } else {
-    hit = hitOf(plane.previous, plane.extent.xy, ray);
-    there = transformed(plane.current, vec3(hit.xy, 0.0));
-    here = transformed(plane.previous, vec3(hit.xy, 0.0));
-  }
-  if (hit.z == 0.0 || there.z <= 0.0) return vec3(0.0);
-  return vec3(projected(there) - projected(here), hit.z);
+  vec3 hit = backward ? hitOf(plane.current, plane.extent.xy, ray)
+                      : hitOf(plane.previous, plane.extent.xy, ray);
+  vec4 there = backward ? plane.previous[2] : plane.current[2];
+  return dot(there, vec4(hit.xy, 0.0, 1.0)) <= 0.0 ? vec3(0.0) : hit;
+}
+
+// A plane's point in the other frame, less its place here.
+vec2 planeShift(Body plane, vec2 at, bool backward) {
+  vec3 current = transformed(plane.current, vec3(at, 0.0));
+  vec3 previous = transformed(plane.previous, vec3(at, 0.0));
+  return backward ? projected(previous) - projected(current)
+                  : projected(current) - projected(previous);
 }
 
 Moved byPlanes(vec2 px, bool backward) {
-  Moved moved = nothingKnown();
   int count = int(known.x);
   float nearest = 0.0;
+  int which = 0;
   for (int i = 0; i < count; ++i) {
     if (planes[i].turnsAbout.w == 0.0) continue;
-    vec3 shift = planeShift(planes[i], px, backward);
-    if (shift.z == 0.0 || (nearest > 0.0 && shift.z >= nearest)) continue;
-    nearest = shift.z;
-    const float kReach = 1.0;
-    vec3 x = planeShift(planes[i], px + vec2(kReach, 0.0), backward);
-    vec3 y = planeShift(planes[i], px + vec2(0.0, kReach), backward);
-    vec4 jacobian = kNoTurn;
-    if (x.z != 0.0 && y.z != 0.0) {
-      jacobian += vec4(x.xy - shift.xy, y.xy - shift.xy) / kReach;
-    }
-    vec3 p = shift.z * rayThrough(px);
-    moved = Moved(shift.xy, jacobian, predictedError(planes[i], p), kSourcePlane);
+    float depth = planeHit(planes[i], px, backward).z;
+    if (depth == 0.0 || (nearest > 0.0 && depth >= nearest)) continue;
+    nearest = depth;
+    which = i;
   }
-  return moved;
+  if (nearest == 0.0) return nothingKnown();
+  // Here, and a pixel further in x and in y. Not unrolled, for its bound is no constant.
+  vec2 shift = vec2(0.0);
+  vec2 inX = vec2(0.0);
+  vec4 jacobian = kNoTurn;
+  int samples = 1;
+  for (int i = 0; i < samples; ++i) {
+    vec3 hit = planeHit(planes[which], px + vec2(i & 1, i >> 1), backward);
+    if (hit.z == 0.0) break;
+    vec2 there = planeShift(planes[which], hit.xy, backward);
+    if (i == 0) shift = there;
+    if (i == 1) inX = there - shift;
+    if (i == 2) jacobian += vec4(inX, there - shift);
+    samples = 3;
+  }
+  float error = predictedError(planes[which], nearest * rayThrough(px));
+  return Moved(shift, jacobian, error, kSourcePlane);
 }
 
 // --- the image as a whole
@@ -92,9 +97,13 @@ vec2 homographyShift(mat3 h, vec2 px) {
               dot(vec3(h[0][1], h[1][1] - 1.0, h[2][1]), vec3(px, 1.0)) - px.y * (p.z - 1.0)) / p.z;
 }
 
+mat3 pictureHomography(bool backward) {
+  return mat3(backward ? previousFromCurrent : currentFromPrevious);
+}
+
 Moved byPicture(vec2 px, bool backward) {
   if (known.z == 0.0) return nothingKnown();
-  mat3 h = mat3(backward ? previousFromCurrent : currentFromPrevious);
+  mat3 h = pictureHomography(backward);
   vec2 shift = homographyShift(h, px);
   float w = dot(vec3(h[0][2], h[1][2], h[2][2]), vec3(px, 1.0));
   vec2 image = px + shift;
@@ -170,12 +179,13 @@ Moved byTriangle(vec2 px, Neighbours near) {
   float area = u.x * v.y - u.y * v.x;
   float longest = max(max(dot(u, u), dot(v, v)), dot(u - v, u - v));
   const float kMinHeight = 0.25;  // of the longest side: flatter triangles amplify noise
-  if (abs(area) <= kMinHeight * longest) return bySimilarity(px, near);  // or all in one place
+  bool isFlat = abs(area) <= kMinHeight * longest;  // or all in one place
   vec2 arm = px - near.at[0];
   float b = (arm.x * v.y - arm.y * v.x) / area;
   float c = (u.x * arm.y - u.y * arm.x) / area;
   vec3 weights = vec3(1.0 - b - c, b, c);
-  if (dot(weights, weights) > 3.0) return bySimilarity(px, near);  // far outside the triangle
+  // or far outside of the triangle
+  if (isFlat || dot(weights, weights) > 3.0) return bySimilarity(px, near);
   vec2 du = near.shift[1] - near.shift[0];
   vec2 dv = near.shift[2] - near.shift[0];
   vec2 shift = near.shift[0] + b * du + c * dv;
@@ -203,14 +213,29 @@ vec4 flowAt(vec2 node) {
   return mix(above, below, vec4(part.yy, between.yy)) * vec4(fullByFrame.xy, fullByFrame.x, 1.0);
 }
 
-Moved byFlow(vec2 px) {
+// Without a Jacobian.
+Moved byFlowHere(vec2 px) {
   if (nodes.x == 0.0) return nothingKnown();
+  vec4 here = flowAt(px * flowGrid.xy + flowGrid.zw);
+  return Moved(here.xy, kNoTurn, here.z, kSourceFlow);
+}
+
+Moved byFlow(vec2 px) {
+  Moved moved = byFlowHere(px);
   vec2 node = px * flowGrid.xy + flowGrid.zw;
-  vec4 here = flowAt(node);
-  // Central differences over two nodes: the flow is smooth, its noise is not.
-  vec2 x = (flowAt(node + vec2(1.0, 0.0)).xy - flowAt(node - vec2(1.0, 0.0)).xy) * 0.5 * flowGrid.x;
-  vec2 y = (flowAt(node + vec2(0.0, 1.0)).xy - flowAt(node - vec2(0.0, 1.0)).xy) * 0.5 * flowGrid.y;
-  return Moved(here.xy, kNoTurn + vec4(x, y), here.z, kSourceFlow);
+  vec2 before = vec2(0.0);
+  // Before and behind, in x and in y. Not unrolled, for its bound is no constant.
+  int samples = nodes.x == 0.0 ? 0 : 4;
+  for (int i = 0; i < samples; ++i) {
+    vec2 axis = i < 2 ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
+    vec2 there = flowAt((i & 1) == 0 ? node - axis : node + axis).xy;
+    // Central differences over two nodes: the flow is smooth, its noise is not.
+    vec2 slope = (there - before) * 0.5;
+    if (i == 1) moved.jacobian.xy += slope * flowGrid.x;
+    if (i == 3) moved.jacobian.zw += slope * flowGrid.y;
+    before = there;
+  }
+  return moved;
 }
 
 // --- static regions
@@ -219,24 +244,6 @@ float stillError(vec2 px) {
   if (nodes.z == 0.0) return kUnknownError;
   ivec2 field = ivec2(px * stillGrid.xy + stillGrid.zw);
   return texelFetch(still, clamp(field, ivec2(0), textureSize(still, 0) - 1), 0).r * fullByFrame.x;
-}
-
-// The image's homography plus the neighbours' residual motion, weighted by how far residuals all
-// over the image exceed the features' errors: the best estimate of both (a Kalman gain).
-Moved withParallax(Moved whole, Neighbours near, float share, bool backward) {
-  float variance = nodes.y;
-  if (known.z == 0.0 || variance == 0.0) return whole;
-  vec2 apart = vec2(0.0);
-  float noise = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    apart += (near.shift[k] - byPicture(near.at[k], backward).displacement) / 3.0;
-    noise += near.error[k] * near.error[k] / 9.0;
-  }
-  float gain = variance / (variance + noise) * (1.0 - 0.5 * share);
-  whole.displacement += gain * apart;
-  float left = 1.0 - gain;
-  whole.error = sqrt(whole.error * whole.error + gain * gain * noise + left * left * variance);
-  return whole;
 }
 
 // --- the choice
@@ -251,33 +258,47 @@ Moved better(Moved a, Moved b) {
   return a;
 }
 
-// `layer`: the real object that px is on, or 0. Takes what is known at px by dense flow, the error of
-// rest there and, where layer is 0, by planes.
-Moved bestOf(vec2 px, float layer, bool backward, Moved flowed, float restError,
-                    Moved plane) {
+// Of what the image itself tells at px: dense flow, the error of rest there, the neighbours, and the
+// homography, plus the neighbours' residual motion, weighted by how far residuals all over the image
+// exceed the features' errors: the best estimate of both (a Kalman gain). `layer`: the real object
+// that px is on, or 0.
+Moved bestOfImage(vec2 px, float layer, bool backward, Moved flowed, float restError) {
   Moved best = better(nothingKnown(), Moved(vec2(0.0), kNoTurn, restError, kSourceStill));
   best = better(best, flowed);
 
   Neighbours near = nearestFeatures(px, layer, backward);
   Moved whole = byPicture(px, backward);
   if (near.count == 3) {
-    Moved triangle = byTriangle(px, near);
+    float share = clamp(near.away / 64.0, 0.1, 1.0);
+    vec2 mean = (near.shift[0] + near.shift[1] + near.shift[2]) / 3.0;
+    bool hasPicture = known.z != 0.0;
+    mat3 h = pictureHomography(backward);
+    vec2 expected[3];
+    vec2 apart = vec2(0.0);
+    float noise = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      expected[k] = hasPicture ? homographyShift(h, near.at[k]) : mean;
+      apart += (near.shift[k] - expected[k]) / 3.0;
+      noise += near.error[k] * near.error[k] / 9.0;
+    }
+    vec2 parallax = vec2(0.0);
+    float variance = nodes.y;
+    if (hasPicture && variance != 0.0) {
+      float gain = variance / (variance + noise) * (1.0 - 0.5 * share);
+      vec2 picture = whole.displacement;
+      whole.displacement += gain * apart;
+      parallax = whole.displacement - picture;
+      float left = 1.0 - gain;
+      whole.error = sqrt(whole.error * whole.error + gain * gain * noise + left * left * variance);
+    }
     // The neighbours' residual against the homography, or among themselves, may continue between
     // them and here.
     float off = 0.0;
-    float odd = 0.0;
-    float share = clamp(near.away / 64.0, 0.1, 1.0);
-    vec2 mean = (near.shift[0] + near.shift[1] + near.shift[2]) / 3.0;
-    whole = withParallax(whole, near, share, backward);
-    vec2 parallax = whole.displacement - byPicture(px, backward).displacement;
     for (int k = 0; k < 3; ++k) {
-      Moved there = byPicture(near.at[k], backward);
-      vec2 expected = known.z == 0.0 ? mean : there.displacement + parallax;
-      float apart = max(0.0, distance(near.shift[k], expected) - 2.0 * near.error[k]);
-      off = max(off, apart);
-      odd = max(odd, apart);
+      off = max(off, distance(near.shift[k], expected[k] + parallax) - 2.0 * near.error[k]);
     }
-    triangle.error = length(vec2(triangle.error, 0.5 * share * odd));
+    Moved triangle = byTriangle(px, near);
+    triangle.error = length(vec2(triangle.error, 0.5 * share * off));
     triangle.error = length(vec2(triangle.error, contradicted(triangle, flowed.displacement, flowed.error)));
     triangle.error = length(vec2(triangle.error, contradicted(triangle, vec2(0.0), restError)));
     best = better(best, triangle);
@@ -285,19 +306,23 @@ Moved bestOf(vec2 px, float layer, bool backward, Moved flowed, float restError,
   }
   whole.error = length(vec2(whole.error, contradicted(whole, flowed.displacement, flowed.error)));
   whole.error = length(vec2(whole.error, contradicted(whole, vec2(0.0), restError)));
-  best = better(best, whole);
+  return better(best, whole);
+}
 
-  if (layer == 0.0) {
-    plane.error = length(vec2(plane.error, contradicted(plane, flowed.displacement, flowed.error)));
-    plane.error = length(vec2(plane.error, contradicted(plane, vec2(0.0), restError)));
-    best = better(best, plane);
-  }
+// The same or what the planes of the scene tell.
+Moved bestWithPlane(Moved best, Moved plane, Moved flowed, float restError) {
+  plane.error = length(vec2(plane.error, contradicted(plane, flowed.displacement, flowed.error)));
+  plane.error = length(vec2(plane.error, contradicted(plane, vec2(0.0), restError)));
+  best = better(best, plane);
   best.error = max(best.error, kMinError);
   return best;
 }
 
 Moved imageMotionAt(vec2 px, float layer, bool backward) {
-  Moved plane = nothingKnown();
-  if (layer == 0.0) plane = byPlanes(px, backward);
-  return bestOf(px, layer, backward, byFlow(px), stillError(px), plane);
+  Moved flowed = byFlow(px);
+  float restError = stillError(px);
+  Moved best = bestOfImage(px, layer, backward, flowed, restError);
+  if (layer == 0.0) return bestWithPlane(best, byPlanes(px, backward), flowed, restError);
+  best.error = max(best.error, kMinError);
+  return best;
 }

@@ -31,6 +31,7 @@ uniform bool isDoubted;
 uniform float frontRestSeconds;
 uniform float restSeconds;
 uniform float freshSeconds;
+uniform int reach;  // 1, of the cells around; a uniform, so that compilers keep loops over them
 
 const float kHasLeft = -1.0;   // instead of a maturity: the motion of movers carries nothing here
 const float kJoined = -1.0;    // s, instead of a rest: so long what has joined the background, or was
@@ -57,7 +58,7 @@ vec4 surroundings(ivec2 cell) {
   vec4 sum = vec4(0.0);
   for (int stride = 1; stride <= 4 && sum.a < kEnough; stride *= 2) {
     sum = vec4(0.0);
-    for (int y = -2; y <= 2; ++y) {
+    for (int y = -2 * reach; y <= 2 * reach; ++y) {
       for (int x = -2; x <= 2; ++x) {
         sum += texelFetch(ground, clamp(block + stride * ivec2(x, y), ivec2(0), size - 1), 0);
       }
@@ -73,7 +74,7 @@ float maturityAround(ivec2 cell, ivec2 size, vec3 now, vec3 known) {
   float unlike = apart(now, known);
   float most = 0.0;
   int same = 0;
-  for (int y = -1; y <= 1; ++y) {
+  for (int y = -reach; y <= reach; ++y) {
     for (int x = -1; x <= 1; ++x) {
       ivec2 at = clamp(cell + 2 * ivec2(x, y), ivec2(0), size - 1);
       float there = texelFetch(evidence, at, 0).b;
@@ -95,7 +96,7 @@ bool isUncovered(ivec2 cell, ivec2 size) {
   vec3 around = surrounding.rgb;
   vec2 sum = vec2(0.0);  // how unlike they are: the memory, and what is seen
   float weights = 1e-3;
-  for (int y = -1; y <= 1; ++y) {
+  for (int y = -reach; y <= reach; ++y) {
     for (int x = -1; x <= 1; ++x) {
       ivec2 at = clamp(cell + 2 * ivec2(x, y), ivec2(0), size - 1);
       float weight = texelFetch(candidates, at, 0).r;
@@ -119,21 +120,25 @@ bool continuesBackground(ivec2 cell, ivec2 size) {
   vec3 remembered = vec3(0.0);
   vec3 seen = vec3(0.0);
   vec4 beside = vec4(0.0);
-  for (int i = 0; i < 9; ++i) {
-    ivec2 at = clamp(cell + ivec2(i % 3 - 1, i / 3 - 1), ivec2(0), size - 1);
-    remembered += texelFetch(background, at, 0).rgb / 9.0;
-    seen += texelFetch(picture, at, 0).rgb / 9.0;
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      ivec2 at = clamp(cell + ivec2(x, y), ivec2(0), size - 1);
+      remembered += texelFetch(background, at, 0).rgb / 9.0;
+      seen += texelFetch(picture, at, 0).rgb / 9.0;
+    }
   }
   for (int stride = 1; stride <= 8 && beside.a < kLeastBeside; stride *= 2) {
     beside = vec4(0.0);
-    for (int i = 0; i < 9; ++i) {
-      ivec2 at = cell + stride * ivec2(i % 3 - 1, i / 3 - 1);
-      if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size))) continue;
-      vec4 there = texelFetch(candidates, at, 0);
-      vec4 was = texelFetch(evidence, at, 0);
-      bool isGround = there.r < kLeastOther && there.g < 0.1 && was.r >= 0.0 && was.g >= 0.0;
-      if (!isGround) continue;
-      beside += vec4(texelFetch(picture, at, 0).rgb, 1.0);
+    for (int y = -reach; y <= reach; ++y) {
+      for (int x = -1; x <= 1; ++x) {
+        ivec2 at = cell + stride * ivec2(x, y);
+        if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size))) continue;
+        vec4 there = texelFetch(candidates, at, 0);
+        vec4 was = texelFetch(evidence, at, 0);
+        bool isGround = there.r < kLeastOther && there.g < 0.1 && was.r >= 0.0 && was.g >= 0.0;
+        if (!isGround) continue;
+        beside += vec4(texelFetch(picture, at, 0).rgb, 1.0);
+      }
     }
     if (stride == 1 && beside.a >= kSpeck) return true;
   }
@@ -170,7 +175,7 @@ void main() {
   float changes = 0.0;
   float carried = 0.0;
   Structure structure = noStructure();
-  for (int y = -1; y <= 1; ++y) {
+  for (int y = -reach; y <= reach; ++y) {
     for (int x = -1; x <= 1; ++x) {
       ivec2 at = clamp(cell + 2 * ivec2(x, y), ivec2(0), size - 1);
       vec4 there = texelFetch(candidates, at, 0);

@@ -18,15 +18,17 @@ struct SplinePlace {
   float part;  // of its length, in [0, 1], if its points are evenly spaced
 };
 
-SplinePlace splineAt(vec2 points[kSplinePoints], float s) {
-  int span = min(int(s), kSplineSpans - 1);
-  float u = s - float(span);
+int splineSpanAt(float s) { return min(int(s), kSplineSpans - 1); }
+
+// The control points that the place depends on.
+ivec4 splinePointsAt(float s) {
+  return clamp(splineSpanAt(s) + ivec4(-2, -1, 0, 1), 0, kSplineLast);
+}
+
+// c0 to c3: the control points `which`.
+SplinePlace splineAt(float s, ivec4 which, vec2 c0, vec2 c1, vec2 c2, vec2 c3) {
+  float u = s - float(splineSpanAt(s));
   float v = 1.0 - u;
-  ivec4 which = clamp(ivec4(span - 2, span - 1, span, span + 1), 0, kSplineLast);
-  vec2 c0 = points[which.x];
-  vec2 c1 = points[which.y];
-  vec2 c2 = points[which.z];
-  vec2 c3 = points[which.w];
   vec4 weights = vec4(v * v * v, 3.0 * u * u * u - 6.0 * u * u + 4.0,
                       3.0 * v * v * v - 6.0 * v * v + 4.0, u * u * u) / 6.0;
   vec2 at = weights.x * c0 + weights.y * c1 + weights.z * c2 + weights.w * c3;
@@ -35,11 +37,4 @@ SplinePlace splineAt(vec2 points[kSplinePoints], float s) {
   if (dot(along, along) < 1e-6) along = c3 - c0;
   if (dot(along, along) < 1e-6) along = vec2(1.0, 0.0);
   return SplinePlace(at, normalize(along), dot(weights, vec4(which)) / float(kSplineLast));
-}
-
-// Length of the polyline through the points, px.
-float splineLength(vec2 points[kSplinePoints]) {
-  float sum = 0.0;
-  for (int i = 0; i < kSplineLast; ++i) sum += distance(points[i], points[i + 1]);
-  return sum;
 }

@@ -52,12 +52,11 @@ void main() {
   vec2 lengths = stroke.lengths * grown * (0.875 + 0.25 * randomOf(seed, 0x3u));
   float wide = width * girthOf(stroke.state) * (1.0 + widthSpread * 2.0 * randomOf(seed, 0x11u)) * mix(0.6, 1.0, stroke.seen);
   lengths = max(lengths, vec2(0.3 * wide / segment));  // a dab, not a speck
-  vec2 points[kPoints];
   for (int i = 0; i < kPoints; ++i) {
     float s = mix(-lengths.y, lengths.x, float(i) / float(kPoints - 1));
     vec2 arm = s >= 0.0 ? along(stroke.ahead[0], stroke.ahead[1], s)
                         : along(stroke.behind[0], stroke.behind[1], -s);
-    points[i] = px + segment * arm;
+    instances[rank].points[i] = px + segment * arm;
   }
   vec3 colour = stroke.colour;
   float luma = lumaOf(colour);
@@ -68,15 +67,13 @@ void main() {
   float chroma = max(colour.r, max(colour.g, colour.b)) - min(colour.r, min(colour.g, colour.b));
   colour += 2.0 * jitter.x * hue * (0.25 + luma) * mix(kGreyHue, 1.0, smoothstep(0.0, 0.25, chroma));
   colour *= 1.0 + 2.0 * jitter.z * randomOf(seed, 0x25u);
-  Instance made;
-  for (int i = 0; i < 4; ++i) made.points[i] = vec4(points[2 * i], points[2 * i + 1]);
   float light = smoothstep(0.2, 0.95, luma);
   // A stroke cut short on both sides is a speck with little support: paint it thinly.
   float stands = mix(kSpeck, 1.0, smoothstep(0.8, 2.2, stroke.lengths.x + stroke.lengths.y));
   colour = clamp(colour, 0.0, 1.0);
   if (isLimited) colour = mixtureOf(colour);
-  made.paint = vec4(colour, opacity * stands * (1.0 - leaveLight * light) * stroke.seen);
-  made.shape = vec4(0.5 * wide, float(hashOf(seed ^ 0x31u) & 7u),
-                    float(labelOfStroke(stroke.state)), ageOf(anchors[slot].ageAndRank));
-  instances[rank] = made;
+  instances[rank].paint = vec4(colour, opacity * stands * (1.0 - leaveLight * light) * stroke.seen);
+  instances[rank].shape =
+      vec4(0.5 * wide, float(hashOf(seed ^ 0x31u) & 7u), float(labelOfStroke(stroke.state)),
+           ageOf(anchors[slot].ageAndRank));
 }

@@ -114,7 +114,7 @@ bool isSurer(vec2 displacement, float error, vec4 moved, vec2 at, bool isNearMov
   float apart = max(0.0, distance(displacement, -moved.xy) - 2.5 * error);
   Moved surface = Moved(displacement, kNoTurn, error, kSourceSurface);
   if (!isNearMover) {
-    Moved flowed = byFlow(at);
+    Moved flowed = byFlowHere(at);
     float ofFlow = contradicted(surface, flowed.displacement, flowed.error);
     float ofRest = contradicted(surface, vec2(0.0), stillError(at));
     surface.error = length(vec3(error, ofFlow, ofRest));

@@ -30,8 +30,11 @@ BOARDS = [Board("Pi 4", "v3d42", 8 * 4 * 500e6, None, (3e9, 6e9)),
 # A loop counts once in a compiler's counts: it runs once at best, and on the average of this tree's loops (rings of
 # points, cells of a block, taps) not more often than this.
 LOOP_ROUNDS = 4
-# Of the target, what the triangles of draws other than whole passes cover: from a little to twice over.
+# Of the target, what the triangles of a program's draws other than whole passes cover together in a frame: from a
+# little to twice over.
 COVERED = (0.1, 2.0)
+# Texels of each texture that an invocation of a dispatch along a list (of anchors, strokes, points) reads at most.
+LIST_TEXELS = 64
 
 
 @dataclasses.dataclass
@@ -53,11 +56,29 @@ def _add(pair, least, most):
     pair[1] += most
 
 
-def _add_draw(one, record, share):
+def _is_whole_pass(record):
+    return record["program"].startswith("pipeline/gpu/shaders/fullscreen.vert")
+
+
+def _invocations(work):
+    return math.prod(work["groups"]) * math.prod(work["group_size"])
+
+
+def _texels_read(record, texels):
+    """Of a texture, at least and at most: each texel at least once; where neighbours share reads by the cache alone,
+    some twice. Dispatches along a list read what is around its members."""
+    work = record["work"]
+    if "groups" in work and work["groups"][1] * work["group_size"][1] == 1:
+        count = _invocations(work)
+        return min(texels, count), min(2 * texels, LIST_TEXELS * count)
+    return texels, 2 * texels
+
+
+def _add_draw(one, record, share, draws):
+    """`draws`: of the program in a frame."""
     work = record["work"]
     width, height = work["viewport"]
-    is_whole_pass = record["program"].startswith("pipeline/gpu/shaders/fullscreen.vert")
-    covered = (1.0, 1.0) if is_whole_pass else COVERED
+    covered = (1.0, 1.0) if _is_whole_pass(record) else tuple(part / max(1.0, draws) for part in COVERED)
     pixels = width * height
     _add(one.invocations["fragment"], share * pixels * covered[0], share * pixels * covered[1])
     vertices = work["vertices"] * work["instances"]
@@ -71,7 +92,7 @@ def _add_draw(one, record, share):
 
 def _add_dispatch(one, record, share):
     work = record["work"]
-    invocations = math.prod(work["groups"]) * math.prod(work["group_size"])
+    invocations = _invocations(work)
     _add(one.invocations["compute"], share * invocations, share * invocations)
     for name, size in work["images"].items():
         access = record["state"]["images"][name][1]
@@ -91,6 +112,9 @@ def passes_of(short, long, frames):
             runs[key] += sign * record["count"]
             examples[key] = record
     passes = collections.defaultdict(Pass)
+    draws = collections.Counter()
+    for key, count in runs.items():
+        draws[programs.name(examples[key])] += max(0, count) / frames
     for key, count in runs.items():
         if count <= 0:
             continue
@@ -98,13 +122,13 @@ def passes_of(short, long, frames):
         name = programs.name(record)
         one = passes[name]
         one.runs += share
-        for size in record["work"]["textures"].values():
-            # Each texel at least once; where neighbours share reads by the cache alone, some twice.
-            _add(one.read, share * _bytes(size), 2 * share * _bytes(size))
+        for width, height, texel in record["work"]["textures"].values():
+            least, most = _texels_read(record, width * height)
+            _add(one.read, share * texel * least, share * texel * most)
         if "groups" in record["work"]:
             _add_dispatch(one, record, share)
         else:
-            _add_draw(one, record, share)
+            _add_draw(one, record, share, draws[name])
     return dict(passes)
 
 

@@ -8,6 +8,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 sys.dont_write_bytecode = True
 
 import compiling  # noqa: E402
+import cost  # noqa: E402
 import programs  # noqa: E402
 import recording  # noqa: E402
 import shader_statistics  # noqa: E402
@@ -95,6 +96,43 @@ class Programs(unittest.TestCase):
 
     def test_strips_comments(self):
         self.assertEqual(programs.without_comments("// a\nfloat b; // c\n\n  /* d\n e */ f\n"), "float b;\nf")
+
+
+
+class Costs(unittest.TestCase):
+    @staticmethod
+    def dispatch(groups, size):
+        return {"program": "pipeline/a/shaders/b.comp", "defines": [], "state": {"textures": {"t": "rgba8"}, "images": {}},
+                "work": {"groups": groups, "group_size": size, "textures": {"t": [640, 480, 4]}, "images": {}}, "count": 4}
+
+    def test_lists_read_what_is_around_their_members(self):
+        one = cost.passes_of([], [self.dispatch([2, 1, 1], [64, 1, 1])], 4)["a: b.comp"]
+        self.assertEqual(one.read, [4 * 128, 4 * 128 * cost.LIST_TEXELS])
+        self.assertEqual(one.invocations["compute"], [128, 128])
+
+    def test_grids_read_whole_textures(self):
+        one = cost.passes_of([], [self.dispatch([10, 30, 1], [16, 4, 1])], 4)["a: b.comp"]
+        self.assertEqual(one.read, [4 * 640 * 480, 8 * 640 * 480])
+
+    def test_draws_of_a_program_cover_the_target_together(self):
+        draw = {"program": "pipeline/a/shaders/b.vert pipeline/a/shaders/b.frag", "defines": [], "state": {"textures": {}},
+                "work": {"viewport": [10, 10], "vertices": 3, "instances": 1, "targets": [[10, 10, 4]], "depth": [10, 10, 4],
+                         "textures": {}}, "count": 8}
+        one = cost.passes_of([], [draw], 4)["a: b.frag"]  # two a frame
+        self.assertEqual(one.invocations["fragment"], [0.1 * 100, 2.0 * 100])
+        self.assertEqual(one.written, [0.1 * 800, 2.0 * 800])
+
+    def test_a_frame_is_the_difference_of_two_runs(self):
+        start = self.dispatch([10, 30, 1], [16, 4, 1])
+        self.assertEqual(cost.passes_of([start], [start], 4), {})
+
+    def test_computing_and_moving_overlap_at_best(self):
+        one = cost.passes_of([], [self.dispatch([10, 30, 1], [16, 4, 1])], 4)["a: b.comp"]
+        board = cost.Board("board", "none", 1e6, None, (1e6, 2e6))
+        row = tables.Row("-", statistics(instructions=100, spills=0, fills=0, loops=0))
+        least, most = cost.seconds_on(board, one, {"compute": row})
+        self.assertAlmostEqual(least, 100 * 19200 / 1e6)
+        self.assertAlmostEqual(most, 100 * 19200 / 1e6 + 8 * 640 * 480 / 1e6)
 
 
 if __name__ == "__main__":

@@ -12,8 +12,3 @@ struct Line {
   float bend;     // random for life: how the hand strays, in [-1, 1]
   uint label;     // of what it lies on (line_support.glsl)
 };
-
-vec2 wayOf(uvec4 ways[4], int arm, int i) {
-  int at = arm * kArm + i;
-  return unpackSnorm2x16(ways[at >> 2][at & 3]);
-}

@@ -23,42 +23,44 @@ uniform vec4 paint;
 uniform float rankColour;
 uniform sampler2D colours;
 uniform float colour;
+uniform int points;  // 16; a uniform, so that compilers keep the loop over them
 
-const int kPoints = 16;
+vec2 wayOf(uint slot, int arm, int i) {
+  int at = arm * kArm + i;
+  return unpackSnorm2x16(lines[slot].ways[at >> 2][at & 3]);
+}
 
 void main() {
   uint slot = gl_GlobalInvocationID.x;
   if (slot >= slots) return;
   uint place = ranks[slot];
   if (place == 0xFFFFFFFFu) return;
-  Line line = lines[slot];
-  bool isFront = line.label != 0u;
-  vec2 from = anchors[slot].px + line.shift;
-  Instance made;
+  vec2 lengths = lines[slot].lengths;
+  float rank = lines[slot].rank;
+  uint label = lines[slot].label;
+  bool isFront = label != 0u;
+  float fade = anchors[slot].fade;
+  vec2 from = anchors[slot].px + lines[slot].shift;
   float widest = 0.0;
-  int arm = 1;
-  vec2 points[kPoints];
-  for (int i = 0; i < kPoints; ++i) {
-    float part = float(i) / float(kPoints - 1);
-    float s = mix(-line.lengths.y, line.lengths.x, part);
-    arm = s < 0.0 ? 1 : 0;
+  for (int i = 0; i < points; ++i) {
+    float part = float(i) / float(points - 1);
+    float s = mix(-lengths.y, lengths.x, part);
+    int arm = s < 0.0 ? 1 : 0;
     float way = abs(s);
     vec2 at = from;
-    for (int k = 0; k < kArm; ++k) {
-      at += segment * clamp(way - float(k), 0.0, 1.0) * wayOf(line.ways, arm, k);
+    for (int k = 0; k < kArm && float(k) < way; ++k) {
+      at += segment * min(way - float(k), 1.0) * wayOf(slot, arm, k);
     }
-    points[i] = at;
+    instances[place].points[i] = at;
     float fromEnd = min(part, 1.0 - part);
     float pressure = smoothstep(-0.02, max(taper, 1e-3), fromEnd);
-    float wide = anchors[slot].fade * pressure * halfWidthOf(toneAt(at, isFront), line.rank);
-    made.widths[i >> 2][i & 3] = wide;
+    float wide = fade * pressure * halfWidthOf(toneAt(at, isFront), rank);
+    instances[place].widths[i] = wide;
     widest = max(widest, wide);
   }
-  for (int i = 0; i < 8; ++i) made.points[i] = vec4(points[2 * i], points[2 * i + 1]);
-  vec3 byRank = mix(vec3(0.9, 0.15, 0.1), vec3(0.1, 0.3, 0.95), line.rank);
+  vec3 byRank = mix(vec3(0.9, 0.15, 0.1), vec3(0.1, 0.3, 0.95), rank);
   vec3 ink = mix(paint.rgb, textureLod(colours, from / fullSize, 0.0).rgb, colour);
-  made.paint = vec4(mix(ink, byRank, rankColour), paint.a);
-  made.shape = vec4(widest, float(hashOf(anchors[slot].seed ^ 0x31u) & 3u), float(line.label),
-                    line.rank);
-  instances[place] = made;
+  instances[place].paint = vec4(mix(ink, byRank, rankColour), paint.a);
+  float variant = float(hashOf(anchors[slot].seed ^ 0x31u) & 3u);
+  instances[place].shape = vec4(widest, variant, float(label), rank);
 }

@@ -28,6 +28,7 @@ uniform float cutOff;
 uniform float wander;
 uniform highp sampler2D shifts;
 uniform float jitter;
+uniform ivec2 arms;  // 2, of kArm segments each; a uniform, so that compilers keep the loops
 
 vec2 turned(vec2 way, float angle) {
   float c = cos(angle);
@@ -35,50 +36,24 @@ vec2 turned(vec2 way, float angle) {
   return vec2(c * way.x - s * way.y, s * way.x + c * way.y);
 }
 
+vec2 wayOf(uint slot, int arm, int i) {
+  int at = arm * kArm + i;
+  return unpackSnorm2x16(lines[slot].ways[at >> 2][at & 3]);
+}
+
 // Whether a mover is at a line of the background, or at its end.
-bool reachesMover(vec2 px, Line line) {
+bool reachesMover(uint slot, vec2 px) {
+  vec2 from = px + lines[slot].shift;
   float most = moverAt(px).r;
-  for (int side = 0; side < 2; ++side) {
-    vec2 at = px + line.shift;
-    for (int i = 0; i < kArm; ++i) {
-      at += segment * wayOf(line.ways, side, i);
-      if (float(i) < line.lengths[side] + 1.0) most = max(most, moverAt(at).r);
+  for (int side = 0; side < arms.x; ++side) {
+    float reach = min(lines[slot].lengths[side] + 1.0, float(kArm));
+    vec2 at = from;
+    for (int i = 0; float(i) < reach; ++i) {
+      at += segment * wayOf(slot, side, i);
+      most = max(most, moverAt(at).r);
     }
   }
   return most > 0.1;
-}
-
-struct Arm {
-  vec2 ways[kArm];
-  float length;
-};
-
-Arm walk(vec2 from, vec2 heading, float bend, float most, uint support) {
-  Arm arm;
-  arm.length = most;
-  bool goesOn = true;
-  vec2 at = from;
-  for (int i = 0; i < kArm; ++i) {
-    vec2 way = turned(directionAt(at + 0.5 * segment * heading, support),
-                      bend * (float(i) + 0.5) / float(kArm));
-    float along = dot(way, heading);
-    if (along < 0.0) way = -way;
-    if (goesOn && abs(along) < cutOff) {
-      goesOn = false;
-      arm.length = min(arm.length, float(i));
-    }
-    arm.ways[i] = way;
-    vec2 to = at + segment * way;
-    if (goesOn && supportAt(to) != support) {
-      bool isEarly = supportAt(at + 0.5 * segment * way) != support;
-      // As far as the border, at which it is clipped.
-      arm.length = min(arm.length, float(i) + (isEarly ? 0.5 : 1.0));
-      goesOn = false;
-    }
-    at = to;
-    heading = way;
-  }
-  return arm;
 }
 
 // Low discrepancy: ranks of neighbouring cells are far apart, so that any tone is even (Roberts,
@@ -87,6 +62,63 @@ float rankOf(vec2 px, uint seed) {
   vec2 cell = floor(px / cellPixels);
   float base = dot(cell, vec2(0.7548776662, 0.5698402910));
   return fract(base + 0.5 * float(seed & 1u) + 0.25 * unitOf(hashOf(seed ^ 0x41u)));
+}
+
+// Walks one arm from the line's middle, and blends it with its past as it goes.
+void traceArm(uint slot, int side, vec2 from, vec2 heading, float bend, float most, bool isNew,
+              uint support) {
+  vec4 jacobian = anchors[slot].jacobian;
+  float stays = pastOn(support);
+  float reach = most;  // segments
+  bool goesOn = true;
+  vec2 at = from;
+  vec2 before = heading;  // of the blended ones
+  for (int i = 0; i < arms.y; ++i) {
+    vec2 way = turned(directionAt(at + 0.5 * segment * heading, support),
+                      bend * (float(i) + 0.5) / float(kArm));
+    float along = dot(way, heading);
+    if (along < 0.0) way = -way;
+    if (goesOn && abs(along) < cutOff) {
+      goesOn = false;
+      reach = min(reach, float(i));
+    }
+    vec2 to = at + segment * way;
+    if (goesOn && supportAt(to) != support) {
+      bool isEarly = supportAt(at + 0.5 * segment * way) != support;
+      // As far as the border, at which it is clipped.
+      reach = min(reach, float(i) + (isEarly ? 0.5 : 1.0));
+      goesOn = false;
+    }
+    at = to;
+    heading = way;
+    if (!isNew) way = heldDirection(way, wayOf(slot, side, i), jacobian, stays);
+    if (dot(way, before) < 0.0) way = -way;
+    before = way;
+    int place = side * kArm + i;
+    lines[slot].ways[place >> 2][place & 3] = packSnorm2x16(way);
+  }
+  lines[slot].lengths[side] = isNew ? reach : mix(reach, lines[slot].lengths[side], stays);
+}
+
+void trace(uint slot, vec2 px, uint seed, bool isNew, uint support) {
+  float stray = wander * (2.0 * unitOf(hashOf(seed ^ 0x44u)) - 1.0);
+  vec2 heading = turned(directionAt(px, support), stray);
+  if (!isNew) {
+    // Keeps the previous orientation.
+    vec4 jacobian = anchors[slot].jacobian;
+    vec2 was = wayOf(slot, 0, 0);
+    if (dot(jacobian.xy * was.x + jacobian.zw * was.y, heading) < 0.0) heading = -heading;
+  }
+  vec2 shift = texelFetch(shifts, shiftTexel(int(slot)), 0).xy;
+  shift += jitter * (2.0 * unitOf(hashOf(seed ^ 0x45u)) - 1.0) * vec2(-heading.y, heading.x);
+  lines[slot].shift = shift;
+  float strays = lines[slot].bend;
+  float most = steps * (0.75 + 0.25 * strays);
+  float bend = stray + 0.5 * wander * strays;
+  for (int side = 0; side < arms.x; ++side) {
+    float sense = side == 0 ? 1.0 : -1.0;
+    traceArm(slot, side, px + shift, sense * heading, sense * bend, most, isNew, support);
+  }
 }
 
 void main() {
@@ -100,54 +132,25 @@ void main() {
   vec2 px = anchors[slot].px;
   uint seed = anchors[slot].seed;
   bool isNew = anew || (state & kBorn) != 0u;
-  Line line = lines[slot];
-  uint support = line.label;
+  uint support = lines[slot].label;
   if (isNew) {
-    line.rank = rankOf(px, seed);
-    line.bend = 2.0 * unitOf(hashOf(seed ^ 0x42u)) - 1.0;
+    lines[slot].rank = rankOf(px, seed);
+    lines[slot].bend = 2.0 * unitOf(hashOf(seed ^ 0x42u)) - 1.0;
   }
   // What is before it has other directions: it stays as it is, and is clipped.
   bool isHeld = !isNew && ((state & (kHidden | kCovered)) != 0u ||
-                           (support == 0u && reachesMover(px, line)));
-  if (!isHeld) {
-    float stray = wander * (2.0 * unitOf(hashOf(seed ^ 0x44u)) - 1.0);
-    vec2 heading = turned(directionAt(px, support), stray);
-    vec4 jacobian = anchors[slot].jacobian;
-    if (!isNew) {
-      // Keeps the previous orientation.
-      vec2 was = wayOf(line.ways, 0, 0);
-      if (dot(jacobian.xy * was.x + jacobian.zw * was.y, heading) < 0.0) heading = -heading;
-    }
-    vec2 shift = texelFetch(shifts, shiftTexel(int(slot)), 0).xy;
-    shift += jitter * (2.0 * unitOf(hashOf(seed ^ 0x45u)) - 1.0) * vec2(-heading.y, heading.x);
-    line.shift = shift;
-    vec2 from = px + shift;
-    float stays = pastOn(support);
-    float most = steps * (0.75 + 0.25 * line.bend);
-    float bend = stray + 0.5 * wander * line.bend;
-    for (int side = 0; side < 2; ++side) {
-      Arm arm = walk(from, side == 0 ? heading : -heading, side == 0 ? bend : -bend, most, support);
-      vec2 before = side == 0 ? heading : -heading;
-      for (int i = 0; i < kArm; ++i) {
-        vec2 way = arm.ways[i];
-        if (!isNew) way = heldDirection(way, wayOf(line.ways, side, i), jacobian, stays);
-        if (dot(way, before) < 0.0) way = -way;
-        before = way;
-        int at = side * kArm + i;
-        line.ways[at >> 2][at & 3] = packSnorm2x16(way);
-      }
-      line.lengths[side] = isNew ? arm.length : mix(arm.length, line.lengths[side], stays);
-    }
-  }
+                           (support == 0u && reachesMover(slot, px)));
+  if (!isHeld) trace(slot, px, seed, isNew, support);
   bool isFront = support != 0u;
-  float most = toneAt(px + line.shift, isFront);
-  for (int side = 0; side < 2; ++side) {
-    vec2 at = px + line.shift;
-    for (int i = 0; i < kArm; ++i) {
-      at += segment * wayOf(line.ways, side, i);
-      if (float(i) < line.lengths[side]) most = max(most, toneAt(at, isFront));
+  vec2 from = px + lines[slot].shift;
+  float most = toneAt(from, isFront);
+  for (int side = 0; side < arms.x; ++side) {
+    float reach = min(lines[slot].lengths[side], float(kArm));
+    vec2 at = from;
+    for (int i = 0; float(i) < reach; ++i) {
+      at += segment * wayOf(slot, side, i);
+      most = max(most, toneAt(at, isFront));
     }
   }
-  line.seen = anchors[slot].fade * halfWidthOf(most, line.rank);
-  lines[slot] = line;
+  lines[slot].seen = anchors[slot].fade * halfWidthOf(most, lines[slot].rank);
 }

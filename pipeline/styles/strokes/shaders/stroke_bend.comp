@@ -4,9 +4,8 @@
 // Inputs:  instances, instanceCount of them in drawn; bend: px that a quad's chord may deviate.
 // Outputs: plans: breaks. One invocation per stroke.
 // Precision: highp.
-#include "pipeline/styles/strokes/shaders/stroke_strip.glsl"
+#include "pipeline/styles/strokes/shaders/strip_spline.glsl"
 layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Instances { Instance instances[]; };
 layout(std430, binding = 1) readonly buffer Drawn { DrawCommand drawn; };
 layout(std430, binding = 2) writeonly buffer Plans { StripPlan plans[]; };
 uniform float bend;
@@ -14,20 +13,18 @@ uniform float bend;
 void main() {
   uint rank = gl_GlobalInvocationID.x;
   if (rank >= drawn.instanceCount) return;
-  vec2 points[kSplinePoints];
-  pointsOf(instances[rank].points, points);
   float halfWidth = instances[rank].shape.x;
   uint breaks = 0u;
   float way = 0.0;
   float turn = 0.0;
 #ifdef LONG
   const float kWidth = 0.25;  // px
-  float wide = halfWidthAt(instances[rank].widths, 0.0);
+  float wide = halfWidthAt(rank, 0.0);
 #endif
   // the first span, a sixth of a full span long, is straight
-  SplinePlace before = splineAt(points, 1.0);
+  SplinePlace before = splineAt(rank, 1.0);
   for (int knot = 2; knot < kSplineSpans; ++knot) {
-    SplinePlace here = splineAt(points, float(knot));
+    SplinePlace here = splineAt(rank, float(knot));
     float further = distance(here.at, before.at);
     float turned = distance(here.along, before.along);
     // An arc of length l that turns by θ deviates from its chord by l θ / 8; its sides, half a
@@ -35,8 +32,8 @@ void main() {
     float turns = turn + turned;
     bool isOff = (way + further + halfWidth * turns) * turns > 8.0 * bend;
 #ifdef LONG
-    if (abs(halfWidthAt(instances[rank].widths, here.part) - wide) > kWidth) isOff = true;
-    if (isOff) wide = halfWidthAt(instances[rank].widths, before.part);
+    if (abs(halfWidthAt(rank, here.part) - wide) > kWidth) isOff = true;
+    if (isOff) wide = halfWidthAt(rank, before.part);
 #endif
     if (isOff && way > 0.0) breaks |= 1u << uint(knot - 1);
     way = isOff ? further : way + further;

@@ -14,5 +14,7 @@ uniform float quads;
 SplinePlace splinePlace() {
   vec2 points[8] = vec2[8](first.xy, first.zw, second.xy, second.zw,
                            third.xy, third.zw, fourth.xy, fourth.zw);
-  return splineAt(points, float(gl_VertexID >> 1) / quads * float(kSplineSpans));
+  float s = float(gl_VertexID >> 1) / quads * float(kSplineSpans);
+  ivec4 which = splinePointsAt(s);
+  return splineAt(s, which, points[which.x], points[which.y], points[which.z], points[which.w]);
 }

@@ -18,10 +18,3 @@ struct StripPlan {
 
 // Each strip's first and last vertex are doubled, which joins all strips into one.
 uint stripVertices(uint quads) { return 2u * quads + 4u; }
-
-void pointsOf(vec4 pairs[kSplinePoints / 2], out vec2 points[kSplinePoints]) {
-  for (int i = 0; i < kSplinePoints / 2; ++i) {
-    points[2 * i] = pairs[i].xy;
-    points[2 * i + 1] = pairs[i].zw;
-  }
-}

@@ -7,7 +7,7 @@
 //          0, the number of quads of every strip (the thesis's 4 (n + 2), §4.4).
 // Outputs: vertices in the layout of stroke.vert. One invocation per stroke.
 // Precision: highp.
-#include "pipeline/styles/strokes/shaders/stroke_strip.glsl"
+#include "pipeline/styles/strokes/shaders/strip_spline.glsl"
 layout(local_size_x = 64) in;
 struct Vertex {
   vec2 at;
@@ -17,7 +17,6 @@ struct Vertex {
   uint shape;  // halves: the stroke's length by its width; the sense of the brush across it
   uint label;
 };
-layout(std430, binding = 0) readonly buffer Instances { Instance instances[]; };
 layout(std430, binding = 1) readonly buffer Drawn { DrawCommand drawn; };
 layout(std430, binding = 2) readonly buffer Plans { StripPlan plans[]; };
 layout(std430, binding = 3) writeonly buffer Vertices { Vertex vertices[]; };
@@ -30,8 +29,6 @@ const float kBeyond = 0.6;  // half widths: the brush's own round ends go beyond
 void main() {
   uint rank = gl_GlobalInvocationID.x;
   if (rank >= drawn.instanceCount) return;
-  vec2 points[kSplinePoints];
-  pointsOf(instances[rank].points, points);
   vec4 paint = instances[rank].paint;
   vec4 shape = instances[rank].shape;
   StripPlan plan = plans[rank];
@@ -40,7 +37,7 @@ void main() {
 #else
   float reach = kBeyond * shape.x;
 #endif
-  float way = splineLength(points);
+  float way = splineLength(rank);
   float whole = max(way + 2.0 * reach, 1e-3);
   uint variant = uint(shape.y) & 3u;
   float sense = shape.y >= kVariants ? -1.0 : 1.0;
@@ -65,12 +62,12 @@ void main() {
       s = float(findLSB(breaks));
       breaks &= breaks - 1u;
     }
-    SplinePlace place = splineAt(points, s);
+    SplinePlace place = splineAt(rank, s);
     float beyond = i == 0u ? -1.0 : (i == quads ? 1.0 : 0.0);
     float part = (place.part * way + (1.0 + beyond) * reach) / whole;
     made.along = packSnorm2x16(place.along);
 #ifdef LONG
-    float halfWidth = halfWidthAt(instances[rank].widths, place.part);
+    float halfWidth = halfWidthAt(rank, place.part);
     made.shape = packHalf2x16(vec2(halfWidth, way));
 #endif
     for (int side = -1; side <= 1; side += 2) {

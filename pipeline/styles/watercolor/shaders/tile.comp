@@ -28,6 +28,7 @@ uniform float beta;
 uniform float threshold;
 uniform bool wantsMeans;
 
+const int kStrip = 2;  // columns
 const float kHalfDiagonal = 2.1213204;  // between the block's middle and its corner pixels' centres
 
 ivec2 size;
@@ -140,36 +141,38 @@ uint silhouettesOf() {
   return met;
 }
 
-// Finds `edges` and `codes`.
+// Finds `edges` and `codes`, two columns at a time.
 void findEdges() {
   uint silhouettes = hasObjects ? silhouettesOf() : 0u;
   edges = 0u;
   codes = uvec4(0u);
-  vec3 above[kBlockSide];
-  vec3 here[kBlockSide];
-  vec4 across = vec4(0.0);
-  for (int x = 0; x < kBlockSide; ++x) above[x] = here[x] = vec3(0.0);
-  int rows = min(kBlockSide, size.y - corner.y);
-  for (int row = -1; row <= rows; ++row) {
-    vec3 colours[kBlockSide + 2];
-    for (int x = 0; x < kBlockSide + 2; ++x) {
-      colours[x] = texelFetch(picture, inPicture(corner + ivec2(x - 1, row)), 0).rgb;
-    }
-    if (row > 0) {
-      uint code = 0u;
-      for (int x = 0; x < kBlockSide; ++x) {
-        uint pixel = 1u << (kBlockSide * (row - 1) + x);
-        float strength = across[x] + differenceOf(colours[x + 1], above[x]);
-        bool silhouette = (silhouettes & pixel) != 0u;
-        edges |= strength > threshold || silhouette ? pixel : 0u;
-        code |= codeOf(silhouette ? 1.0 : strength) << (8 * x);
+  ivec2 end = min(ivec2(kBlockSide), size - corner);
+  for (int left = 0; left < end.x; left += kStrip) {
+    vec3 above[kStrip];
+    vec3 here[kStrip];
+    vec2 across = vec2(0.0);
+    for (int x = 0; x < kStrip; ++x) above[x] = here[x] = vec3(0.0);
+    for (int row = -1; row <= end.y; ++row) {
+      vec3 colours[kStrip + 2];
+      for (int x = 0; x < kStrip + 2; ++x) {
+        colours[x] = texelFetch(picture, inPicture(corner + ivec2(left + x - 1, row)), 0).rgb;
       }
-      codes[row - 1] = code;
-    }
-    for (int x = 0; x < kBlockSide; ++x) {
-      above[x] = here[x];
-      here[x] = colours[x + 1];
-      across[x] = differenceOf(colours[x + 2], colours[x]);
+      if (row > 0) {
+        uint code = 0u;
+        for (int x = 0; x < kStrip; ++x) {
+          uint pixel = 1u << (kBlockSide * (row - 1) + left + x);
+          float strength = across[x] + differenceOf(colours[x + 1], above[x]);
+          bool silhouette = (silhouettes & pixel) != 0u;
+          edges |= strength > threshold || silhouette ? pixel : 0u;
+          code |= codeOf(silhouette ? 1.0 : strength) << (8 * (left + x));
+        }
+        codes[row - 1] |= code;
+      }
+      for (int x = 0; x < kStrip; ++x) {
+        above[x] = here[x];
+        here[x] = colours[x + 1];
+        across[x] = differenceOf(colours[x + 2], colours[x]);
+      }
     }
   }
 }
@@ -192,8 +195,8 @@ void main() {
   size = textureSize(picture, 0);
   corner = ivec2(gl_GlobalInvocationID.xy) * kBlockSide;
   if (any(greaterThanEqual(corner, size))) return;
-  findEdges();
   findNearest();
+  findEdges();
 
   for (int i = 0; i < kBlockPixels; ++i) {
     ivec2 here = corner + inBlock(i);
@@ -210,10 +213,12 @@ void main() {
     if (name == 0u) break;
     uint places = 0u;
     uint edgePlaces = 0u;
+    uint own = 0u;  // a bit for each pixel
     for (int i = 0; i < kBlockPixels; ++i) {
       ivec2 here = inBlock(i);
       uint place = nearest[i] == name ? uint(here.x | (here.y << 8) | (1 << 16)) : 0u;
       places += place;
+      own |= place != 0u ? 1u << i : 0u;
       edgePlaces += (edges >> i & 1u) != 0u ? place : 0u;
     }
     uint index = (name - 1u) * uint(kSumWords);
@@ -221,8 +226,8 @@ void main() {
     if (edgePlaces != 0u) addPlaces(edgePlaces, index + 4u, index + 5u, index + 6u);
     if (wantsMeans) {
       uvec3 colour = uvec3(0u);
-      for (int i = 0; i < kBlockPixels; ++i) {
-        uint taken = nearest[i] == name ? 0xFFFFFFFFu : 0u;
+      for (int i = 0; own >> i != 0u; ++i) {
+        uint taken = (own >> i & 1u) != 0u ? 0xFFFFFFFFu : 0u;
         vec3 srgb = texelFetch(picture, inPicture(corner + inBlock(i)), 0).rgb;
         colour += uvec3(linearFromSrgbFast(srgb) * kLinearUnits + 0.5) & taken;
       }
