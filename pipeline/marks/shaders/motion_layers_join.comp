@@ -230,12 +230,14 @@ void main() {
   bool isOther = (own.r > 0.5 && others > 0.25) || (own.r > 0.15 && others > 0.55) || others > 0.8;
   bool hasCause = changes > 0.08 || carried > 0.5;
   bool isMover = !isLight && hasCause && (isOther || (wasMover && own.r > 0.15 && others > 0.3));
+  bool mayBeHole = !isMover && !isEverywhere && !isSwitched && hasCause && carried > 0.5;
+  bool mayContinue = isMover && isDoubted;
   float enclosing = -1.0;
-  if (!isMover && isStanding && !isEverywhere && !isSwitched && hasCause && carried > 0.5) {
-    enclosing = maturityOfEnclosing(cell, size, kHoleReach);
-    isMover = enclosing >= 0.0 && isUnlikeInHole(cell, size);
+  if (isStanding && (mayBeHole || mayContinue)) {
+    enclosing = maturityOfEnclosing(cell, size, mayBeHole ? kHoleReach : kOutlineReach);
   }
-  bool isFilled = isMover && enclosing >= 0.0;
+  bool isFilled = mayBeHole && enclosing >= 0.0 && isUnlikeInHole(cell, size);
+  isMover = isMover || isFilled;
   bool isResting = changes < (isStanding ? kRestingChange : kMovingRestingChange);
   float rest = isMover && isResting ? max(past.g, 0.0) + stepSeconds : 0.0;
   float maturity = isMover ? max(past.b, isFilled ? enclosing : past.b) : 0.0;
@@ -248,9 +250,8 @@ void main() {
     maturity = max(maturity, maturityAround(cell, size, now, known.rgb));
   }
   // Later, it would take a mover that rests beside things of its own colour for such a place.
-  bool mayContinue = isMover && !isFilled && isStanding && isDoubted && rest > kLeastRest;
-  hasLeft = hasLeft || (mayContinue && continuesBackground(cell, size) &&
-                        maturityOfEnclosing(cell, size, kOutlineReach) < 0.0);
+  mayContinue = mayContinue && isStanding && rest > kLeastRest && enclosing < 0.0;
+  hasLeft = hasLeft || (mayContinue && continuesBackground(cell, size));
   if (hasLeft) maturity = kHasLeft;
   float joinsAfter = hasLeft ? 0.0 : maturity > kMatureSeconds ? restSeconds : kTentative;
   bool isBeforeModel = hasFront && !hasLeft && texelFetch(front, cell, 0).r > 0.0;
