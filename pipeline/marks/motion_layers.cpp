@@ -196,6 +196,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .set("restSeconds", static_cast<float>(hal::toSeconds(options.rest)))
       .set("freshSeconds", kFreshSeconds)
       .set("reach", 1)
+      .set("noise", static_cast<float>(noise))
       .image("labels", s.labels.at(s.now), ImageAccess::kWrite)
       .image("backgroundNow", s.backgrounds.at(s.now), ImageAccess::kWrite)
       .dispatch(s.cells(), kStored);

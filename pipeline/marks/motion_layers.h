@@ -29,7 +29,8 @@ struct MotionLayersOptions {
 /// like its surroundings, else like any other mover. (Background subtraction with a running mean:
 /// Piccardi, "Background subtraction techniques: a review", 2004.)
 ///
-/// A mover's plain parts, and those along an edge, go with the others. What comes in from outside
+/// A mover's plain parts, and those along an edge, go with the others; so do parts all around which
+/// it is, and which are not what is remembered there. What comes in from outside
 /// before a camera that stands is a mover at once. Virtual models are looked through: what moves
 /// behind them is known, too. One mover is not told from another. Under
 /// parallax, near things may count as movers. All calls on the thread of the GL context that was

@@ -6,7 +6,7 @@
 //          that rests joins the background, frontRestSeconds: if it is before a model; front: the
 //          previous frame's (front_movers.comp), if hasFront; isDoubted: what is remembered may be
 //          a mover that stood there when the camera began to look; freshSeconds: freshness falls to 0
-//          within so long.
+//          within so long; noise: sigma of a cell, in [0, 1].
 // Outputs: labels RGBA16F: 1 on movers, else 0; freshness: 1 where the label has just changed,
 //          falling to 0; rest and maturity, s, the latter below 0 where a mover has left.
 //          backgroundNow RGBA16F: its mean colour, and the frames in the mean, 0 if it was never
@@ -32,6 +32,7 @@ uniform float frontRestSeconds;
 uniform float restSeconds;
 uniform float freshSeconds;
 uniform int reach;  // 1, of the cells around; a uniform, so that compilers keep loops over them
+uniform float noise;
 
 const float kHasLeft = -1.0;   // instead of a maturity: the motion of movers carries nothing here
 const float kJoined = -1.0;    // s, instead of a rest: so long what has joined the background, or was
@@ -48,6 +49,10 @@ const float kLikelier = 0.06;  // of colour: uncovered rather than covered
 const float kAlike = 0.6;      // share of the memory's difference that is left
 const float kSwitched = 0.04;  // of all blocks: a light has been switched
 const float kLeastKept = 0.5;   // of those with edges that have changed
+const int kHoleReach = 8;  // cells
+const int kOutlineReach = 4;  // cells: a mover that has left is taken back from its outline inwards
+const float kHoleUnlike = 0.012;  // of colour: a hole in a mover that shows no background
+const float kHoleDeviations = 1.5;  // of the noise, in a mean of nine
 
 // The colour of the background around, in a window that grows until it has seen enough, and how
 // many blocks of it were seen.
@@ -149,6 +154,43 @@ bool continuesBackground(ivec2 cell, ivec2 size) {
   return before - now > kLikelier && now < kAlike * before;
 }
 
+// How long the movers on all sides of a cell have been seen to move; -1 if there is a side without
+// any within `farthest` cells, but for those beyond the image's border.
+float maturityOfEnclosing(ivec2 cell, ivec2 size, int farthest) {
+  float most = 0.0;
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      if (x == 0 && y == 0) continue;
+      bool isMet = false;
+      for (int away = 2; away <= farthest && !isMet; away += 2) {
+        ivec2 at = cell + away * ivec2(x, y);
+        bool isOutside = any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size));
+        vec2 there = isOutside ? vec2(1.0) : texelFetch(candidates, at, 0).rg;
+        isMet = isOutside || (there.g > 0.5 && there.r > 0.5);
+        if (isMet && !isOutside) most = max(most, texelFetch(evidence, at, 0).b);
+      }
+      if (!isMet) return -1.0;
+    }
+  }
+  return most;
+}
+
+// Whether what is seen in a hole in a mover is not what is remembered there, though it is too like
+// it, or too like its shadow, to be other content by itself: the mean over the hole around the cell.
+bool isUnlikeInHole(ivec2 cell, ivec2 size) {
+  vec4 sum = vec4(0.0);
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      ivec2 at = clamp(cell + ivec2(x, y), ivec2(0), size - 1);
+      vec4 known = texelFetch(background, at, 0);
+      if (texelFetch(candidates, at, 0).r > 0.5 || known.a < 0.5) continue;
+      sum += vec4(texelFetch(picture, at, 0).rgb - known.rgb, 1.0);
+    }
+  }
+  float least = kHoleUnlike + kHoleDeviations * noise;
+  return sum.a > 0.0 && weightedLength(sum.rgb / sum.a) > least;
+}
+
 void main() {
   ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   ivec2 size = imageSize(labels);
@@ -195,10 +237,18 @@ void main() {
   bool isOther = (own.r > 0.5 && others > 0.25) || (own.r > 0.15 && others > 0.55) || others > 0.8;
   bool hasCause = changes > 0.08 || carried > 0.5;
   bool isMover = !isLight && hasCause && (isOther || (wasMover && own.r > 0.15 && others > 0.3));
+  bool mayBeHole = !isMover && !isEverywhere && !isSwitched && hasCause && carried > 0.5;
+  bool mayContinue = isMover && isDoubted;
+  float enclosing = -1.0;
+  if (isStanding && (mayBeHole || mayContinue)) {
+    enclosing = maturityOfEnclosing(cell, size, mayBeHole ? kHoleReach : kOutlineReach);
+  }
+  bool isFilled = mayBeHole && enclosing >= 0.0 && isUnlikeInHole(cell, size);
+  isMover = isMover || isFilled;
   bool isResting = changes < (isStanding ? kRestingChange : kMovingRestingChange);
   float rest = isMover && isResting ? max(past.g, 0.0) + stepSeconds : 0.0;
-  float maturity = isMover ? past.b : 0.0;
-  bool isYoung = isMover && maturity <= kMatureSeconds;
+  float maturity = isMover ? max(past.b, isFilled ? enclosing : past.b) : 0.0;
+  bool isYoung = isMover && !isFilled && maturity <= kMatureSeconds;
   // What was a mover when the camera began to look, or stood there for long, has left. Flow and the
   // motion of movers reach beyond their outlines: neither makes such a place older. While the camera
   // moves, new parts of a mover would be taken for such places.
@@ -207,7 +257,7 @@ void main() {
     maturity = max(maturity, maturityAround(cell, size, now, known.rgb));
   }
   // Later, it would take a mover that rests beside things of its own colour for such a place.
-  bool mayContinue = isMover && isStanding && isDoubted && rest > kLeastRest;
+  mayContinue = mayContinue && isStanding && rest > kLeastRest && enclosing < 0.0;
   hasLeft = hasLeft || (mayContinue && continuesBackground(cell, size));
   if (hasLeft) maturity = kHasLeft;
   float joinsAfter = hasLeft ? 0.0 : maturity > kMatureSeconds ? restSeconds : kTentative;

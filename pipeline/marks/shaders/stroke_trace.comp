@@ -110,23 +110,38 @@ float heldLength(float now, float was, float stays, bool isOnMover) {
   return mix(now, was, rate);
 }
 
-// Whether a mover is at the stroke or beside it.
-bool reachesMover(vec2 px, Stroke stroke) {
-  float most = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    most = max(most, moverAt(px + segment * (2.0 * vec2(i & 1, i >> 1) - 1.0)).r);
+// Other content has come to rest in front of the stroke if it is new and of another colour.
+bool isReplacedAt(vec2 px, vec3 colour) {
+  const float kNewFrames = 3.5;  // fewer than what a moving camera remembers
+  vec4 known = textureLod(background, inLayers(background, px), 0.0);
+  bool isNew = known.a > 0.5 && known.a < kNewFrames && moverAt(px).r < 0.5;
+  return isNew && apart(colour, known.rgb) > max(otherColour.y, 1.5 * colourThreshold);
+}
+
+// Adds a place of a stroke to what is before it: x: the largest label of a mover; y: 1 if a mover
+// has joined the background there.
+vec2 before(vec2 known, vec2 px, vec3 colour) {
+  return max(known, vec2(moverAt(px).r, isReplacedAt(px, colour) ? 1.0 : 0.0));
+}
+
+// What is before a stroke of the background, or beside it.
+vec2 whatIsBefore(vec2 px, Stroke stroke) {
+  vec2 found = vec2(0.0);
+  vec2 at = px;
+  // Four corners around its anchor, then both arms.
+  for (int i = 0; i < 4 + 2 * kArm; ++i) {
+    int step = i < 4 ? i : (i - 4) % kArm;
+    bool isAhead = i - 4 < kArm;
+    if (i < 4) {
+      at = px + segment * (2.0 * vec2(i & 1, i >> 1) - 1.0);
+    } else {
+      vec4 two = isAhead ? stroke.ahead[step >> 1] : stroke.behind[step >> 1];
+      at = (step == 0 ? px : at) + segment * ((step & 1) == 0 ? two.xy : two.zw);
+      if (float(step) >= (isAhead ? stroke.lengths.x : stroke.lengths.y)) continue;
+    }
+    found = before(found, at, stroke.colour);
   }
-  vec2 ahead = px;
-  vec2 behind = px;
-  for (int i = 0; i < kArm; ++i) {
-    vec4 two = stroke.ahead[i >> 1];
-    ahead += segment * ((i & 1) == 0 ? two.xy : two.zw);
-    two = stroke.behind[i >> 1];
-    behind += segment * ((i & 1) == 0 ? two.xy : two.zw);
-    if (float(i) < stroke.lengths.x) most = max(most, moverAt(ahead).r);
-    if (float(i) < stroke.lengths.y) most = max(most, moverAt(behind).r);
-  }
-  return most > 0.1;
+  return found;
 }
 
 // The part of its cell's target below this anchor: it is above 1 where there are more anchors than
@@ -169,7 +184,8 @@ void main() {
   bool isBehind = (state & kCovered) != 0u;
   // A mover has left it behind. It would be drawn over the mover as long as it kept its label.
   bool isLeft = !isOnMover && labelOfStroke(old.state) == kMoverLabel;
-  bool isBeside = !isNew && !isOnMover && !isLeft && reachesMover(px, old);
+  vec2 found = isNew || isOnMover || isLeft ? vec2(0.0) : whatIsBefore(px, old);
+  bool isBeside = found.x > 0.1;
   if (!isNew && ((state & kHidden) != 0u || isBehind || isBeside)) {
     // What is before it has other colours and directions: the stroke stays, or fades out,
     // unchanged, unless it is of a colour that is not there.
@@ -179,6 +195,11 @@ void main() {
                    apart(old.colour, behind.rgb) > otherColour.y;
     bool isUnder = isBehind && isPatch(labelAt(px));
     isStale = isStale && !isUnder;
+    if (isReal && !isUnder && (isBehind || isBeside) && found.y > 0.0) {
+      // It would be seen there, since nothing covers it any more.
+      isStale = true;
+      old.exists = 0.0;  // also when that has become old
+    }
     if (isUnder) old = turned(old, jacobian);
     if (!isStale || isBehind) {
       // Segments may have been labelled anew.

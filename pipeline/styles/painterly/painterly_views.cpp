@@ -24,7 +24,9 @@ constexpr std::array kViews{
     View{{"skeletons", "the strokes' skeletons in their layer's colour"},
          PainterlyViewer::kStrokes},
     View{{"anchors", "the strokes' anchors: red ones are young"}, PainterlyViewer::kStrokes},
-    View{{"movers", "what moves by itself (red), and where that has just changed (yellow)"},
+    View{{"movers",
+          "what moves by itself: red where it is sure, pale where it is not yet, violet where it "
+          "rests; yellow: just changed; blue: the background is hardly known"},
          PainterlyViewer::kMovers},
     View{{"background", "the background as it is remembered; black: never seen"},
          PainterlyViewer::kMovers},

@@ -176,6 +176,52 @@ TEST_F(MotionLayersTest, WhatMovesIsFoundWithItsOutline) {
       << "it is gone at once; a cell in a hundred may have been taken for ground";
 }
 
+/// A spot on the wall has the disc's colour in a little less light: by itself, the disc before it
+/// counts as a change of light. Where the disc has a hole, the wall is seen.
+TEST_F(MotionLayersTest, PartsLikeTheBackgroundAreNoHolesInAMover) {
+  constexpr glm::dvec2 kSpot{160.0, 120.0};
+  constexpr double kSpotRadius = 9.0;
+  constexpr double kLessLight = 0.92;
+  const auto picture = [&](const View& view, double holeRadius, unsigned seed) {
+    hal::Image image = seen(view, kSize, seed);
+    hal::Image wall = seen({}, kSize, seed);
+    hal::Image disc = seen({.light = kLessLight, .disc = kSpot, .radius = 40.0}, kSize, seed);
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) {
+        const double away = glm::distance(glm::dvec2(x, y), kSpot);
+        const bool isDisc = glm::distance(glm::dvec2(x, y), view.disc) < view.radius;
+        if (isDisc && away >= holeRadius) continue;
+        hal::Image& from = away < kSpotRadius && holeRadius == 0.0 ? disc : wall;
+        std::copy_n(from.row(0, y).data() + 4 * x, 4, image.row(0, y).data() + 4 * x);
+      }
+    }
+    return image;
+  };
+  /// Cells within `radius` of the spot's middle that are a mover's, or are not.
+  const auto count = [&](double radius, bool isMover) {
+    const std::vector<glm::vec4> labels = texelsOf(layers_->labels());
+    const int width = layers_->labels().size().width;
+    int found = 0;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      const auto index = static_cast<int>(i);
+      const glm::dvec2 px = (glm::dvec2(index % width, index / width) + 0.5) * 2.0;
+      found += glm::distance(px, kSpot) < radius && (labels[i].r > 0.5F) == isMover ? 1 : 0;
+    }
+    return found;
+  };
+  const View passing{.disc = {150.0, 126.0}, .radius = 40.0};
+  unsigned seed = 0;
+  for (int i = 0; i < 12; ++i) seeImage(picture({}, 0.0, ++seed));
+  for (int i = 0; i < 8; ++i) seeImage(picture(passing, 0.0, ++seed));
+  EXPECT_EQ(count(kSpotRadius, false), 0);
+
+  layers_->reset();
+  for (int i = 0; i < 12; ++i) seeImage(picture({}, kSpotRadius, ++seed));
+  for (int i = 0; i < 8; ++i) seeImage(picture(passing, kSpotRadius, ++seed));
+  EXPECT_GT(count(30.0, true), 400);
+  EXPECT_EQ(count(kSpotRadius - 3.0, true), 0) << "the control: a hole";
+}
+
 TEST_F(MotionLayersTest, LabelsAreReadAsTheyAre) {
   see({});
   see({});

@@ -40,8 +40,10 @@ class StrokesAtMovers : public StrokeTest {
   }
   /// Noise differs from frame to frame, so that strokes change that are not held.
   void see(const std::function<double(glm::dvec2)>& luma, int frames = 1) {
-    for (int i = 0; i < frames; ++i) advance(greyPicture(kSize, luma, 3.0, ++seed_), {});
+    for (int i = 0; i < frames; ++i) advance(greyPicture(kSize, luma, 3.0, ++seed_), rule_);
   }
+
+  StrokeRule rule_;
 
  private:
   unsigned seed_ = 0;
@@ -126,6 +128,57 @@ TEST_F(StrokesAtMovers, WhatAMoverLeavesBehindIsNoLongerDrawnOnIt) {
   }
   EXPECT_GT(onMover, 200);
   EXPECT_EQ(left, 0);
+}
+
+/// A disc stands there when the camera begins to look, so that it is remembered as the background;
+/// then it grows, and its new rim is a mover until it has come to rest and joins the rest of the
+/// disc. No stroke of the wall behind the rim may be seen on the disc meanwhile.
+TEST_F(StrokesAtMovers, NoStrokeOfWhatIsCoveredIsSeenWhereAMoverJoinsTheBackground) {
+  constexpr double kFirst = 16.0;
+  constexpr double kLast = 40.0;
+  constexpr double kInside = 5.0;  // px from the outline
+  constexpr float kUnlike = 0.3F;  // of luma
+  rule_.otherColour = {0.09F, 0.18F};
+  int behind = 0;
+  int shown = 0;
+  int joined = 0;
+  for (int frame = 0; frame < 50; ++frame) {
+    const double radius = std::min(kFirst + 3.0 * std::max(0, frame - 4), kLast);
+    const auto luma = [radius](glm::dvec2 px) {
+      return glm::distance(px, kDisc) < radius ? 0.8 : wall(px);
+    };
+    see(luma);
+    const std::vector<Anchor> anchors = anchors_->read();
+    const std::vector<StrokeSlot> strokes = readStrokes();
+    const std::vector<float> labels = support::readRgba32f(layers_->labels());
+    const int width = layers_->labels().size().width;
+    const auto isOnJoined = [&](glm::dvec2 px) {
+      if (glm::distance(px, kDisc) > radius - kInside) return false;
+      const glm::ivec2 cell(px / 2.0);
+      return labels[4 * static_cast<std::size_t>(cell.y * width + cell.x)] < 0.5F;
+    };
+    for (std::size_t slot = 0; slot < strokes.size(); ++slot) {
+      const StrokeSlot& stroke = strokes[slot];
+      const bool isWall = stroke.colour.g < 0.8F - kUnlike;
+      if (!anchors[slot].isAlive() || !anchors[slot].isCovered() || !isWall) continue;
+      ++behind;
+      if (stroke.seen <= 0.0F) continue;
+      bool isShown = isOnJoined(anchors[slot].px);
+      for (const bool isAhead : {true, false}) {
+        glm::vec2 at = anchors[slot].px;
+        for (std::size_t i = 0; i < 4; ++i) {
+          if (static_cast<float>(i) + 0.5F > (isAhead ? stroke.lengths.x : stroke.lengths.y)) break;
+          at += rule_.segmentPx * (isAhead ? stroke.ahead : stroke.behind).at(i);
+          isShown = isShown || isOnJoined(at);
+        }
+      }
+      shown += isShown ? 1 : 0;
+    }
+    joined += isOnJoined(kDisc + glm::dvec2(0.5 * (kFirst + kLast), 0.0)) ? 1 : 0;
+  }
+  EXPECT_GT(joined, 10);
+  EXPECT_GT(behind, 200) << "the control: there are strokes that might be seen";
+  EXPECT_LT(shown, 5);
 }
 
 }  // namespace
