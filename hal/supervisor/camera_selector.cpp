@@ -166,6 +166,7 @@ Result<OpenedCamera> CameraSelector::openFirst(
   // takes a second.
   for (std::size_t i = 0; i < backends.size();) {
     if (auto opened = openOf(*backends[i], request, lastOnes, reasons)) return *std::move(opened);
+    if (stopping_.stop_requested()) break;
     const bool isLast = ++i == backends.size();
     if (isLast || !haveDevicesChanged_.exchange(false) || restarts == kMostRestarts) continue;
     ++restarts;

@@ -18,11 +18,19 @@ bool isWorlds(const tracking::TrackedTag& tag, const glm::dmat4& cameraFromTag) 
   return farthest <= kRoundingMetres;
 }
 
+/// Whether the world's pose gives that of what is attached to the tag, or to no tag.
+bool isInWorld(const scene::Scene& scene, std::optional<int> tagId) {
+  if (!tagId) return true;
+  const tracking::TagMarker* marker = scene.findTag(*tagId);
+  return marker != nullptr && marker->worldFromTag;
+}
+
 }  // namespace
 
 TagContradictions::TagContradictions(const scene::Scene& scene, std::size_t machine)
     : scene_(scene),
       machineTag_(scene.models.at(machine).tagId),
+      isPlacedByWorld_(isInWorld(scene, machineTag_)),
       isDoubtful_(scene.tags.size(), 0) {
   agree_.reserve(scene.tags.size());
   differ_.reserve(scene.tags.size());
@@ -37,12 +45,11 @@ bool TagContradictions::update(const tracking::TrackingResult& tracked) {
   bool isByOwnTag = false;
   for (const tracking::TrackedTag& tag : tracked.tags) {
     const tracking::TagMarker* marker = scene_.findTag(tag.id);
-    const bool isOfWorld = marker != nullptr && marker->worldFromTag && tag.cameraFromTag &&
-                           tag.source == tracking::PoseSource::kSeen;
-    if (!isOfWorld) continue;
+    if (marker == nullptr || !marker->worldFromTag || !tag.cameraFromTag) continue;
     const bool agrees = isWorlds(tag, *tracked.cameraFromWorld * *marker->worldFromTag);
+    isByOwnTag = isByOwnTag || (!agrees && tag.id == machineTag_);  // also while it is carried
+    if (tag.source != tracking::PoseSource::kSeen) continue;
     (agrees ? agree_ : differ_).push_back(static_cast<std::size_t>(marker - scene_.tags.data()));
-    isByOwnTag = isByOwnTag || (!agrees && tag.id == machineTag_);
   }
   if (agree_.empty()) return isMachineDoubtful_;
   const bool hasMajority = agree_.size() > 1;
@@ -52,9 +59,9 @@ bool TagContradictions::update(const tracking::TrackingResult& tracked) {
     if (!hasMajority && !differ_.empty()) isDoubtful_[tag] = 1;
   }
   // The machine's own tag places it where it does not fit, else the world does.
-  isMachineDoubtful_ = isByOwnTag || std::ranges::all_of(agree_, [&](std::size_t tag) {
-                         return isDoubtful_[tag] != 0;
-                       });
+  const bool isWorldDoubtful =
+      std::ranges::all_of(agree_, [&](std::size_t tag) { return isDoubtful_[tag] != 0; });
+  isMachineDoubtful_ = isByOwnTag || (isPlacedByWorld_ && isWorldDoubtful);
   return isMachineDoubtful_;
 }
 

@@ -24,6 +24,7 @@ class TagContradictions {
  private:
   const scene::Scene& scene_;
   std::optional<int> machineTag_;
+  bool isPlacedByWorld_;
   std::vector<std::uint8_t> isDoubtful_;     ///< per tag of the scene, from frame to frame
   std::vector<std::size_t> agree_, differ_;  ///< in the frame; members so that memory is reused
   bool isMachineDoubtful_ = false;

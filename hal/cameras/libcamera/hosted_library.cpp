@@ -180,7 +180,8 @@ Result<std::shared_ptr<Host>> HostedLibrary::started() {
 
 std::shared_ptr<Host> HostedLibrary::takeListed() {
   const std::scoped_lock lock(mutex_);
-  return std::exchange(listed_, {}).lock();
+  const std::shared_ptr<ListedHost> listed = std::exchange(listed_, {}).lock();
+  return listed ? std::move(listed->host) : nullptr;
 }
 
 Result<std::vector<FoundCamera>> HostedLibrary::list() {
@@ -191,9 +192,10 @@ Result<std::vector<FoundCamera>> HostedLibrary::list() {
     if (found.error().subject.empty()) found.error().subject = "libcamera";
     return found;
   }
-  for (FoundCamera& each : *found) each.kept = *host;
+  const auto listed = std::make_shared<ListedHost>(ListedHost{*host});
+  for (FoundCamera& each : *found) each.kept = listed;
   const std::scoped_lock lock(mutex_);
-  listed_ = *host;
+  listed_ = listed;
   return found;
 }
 

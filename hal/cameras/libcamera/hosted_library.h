@@ -23,6 +23,10 @@ struct StartedHost {
 using HostStarter = std::function<Result<StartedHost>()>;
 
 class Host;
+/// The host of a listing, until a camera takes it over.
+struct ListedHost {
+  std::shared_ptr<Host> host;
+};
 
 /// libcamera in another process, one for each listing and for each open camera, because libcamera
 /// ends its process on what it does not expect: the end of a device in mid-stream, or its return
@@ -30,7 +34,8 @@ class Host;
 ///
 /// The process of a listing lives on while one of the cameras that it has found is held
 /// (FoundCamera::kept), and the next open() takes it over, which saves starting a process and
-/// looking for devices; where it cannot open the camera, a new one tries.
+/// looking for devices; where it cannot open the camera, a new one tries. It then ends with the
+/// device, so that a camera that does not start is not kept from others.
 ///
 /// A host that ends is an error of the call in progress (kIo), or the loss of the stream. One that
 /// does not answer within 8 s (20 s for a listing) is killed: kTimeout. The end of a stream takes
@@ -47,8 +52,8 @@ class HostedLibrary final : public Library {
   std::shared_ptr<Host> takeListed();
 
   HostStarter start_;
-  std::mutex mutex_;            // guards the following
-  std::weak_ptr<Host> listed_;  ///< the host of the last listing, until a camera takes it over
+  std::mutex mutex_;                  // guards the following, and what it refers to
+  std::weak_ptr<ListedHost> listed_;  ///< of the last listing
 };
 
 }  // namespace pleinair::hal::libcamera

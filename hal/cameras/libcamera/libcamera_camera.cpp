@@ -73,7 +73,8 @@ class Session final : public CameraSession {
   int requeueFailure_ = 0;  ///< −errno
   std::optional<std::uint32_t> lastNumber_;
   std::uint64_t nextSequence_ = 0;
-  std::optional<TimePoint> lastTime_;
+  std::optional<TimePoint> lastTime_;        ///< captureTime of the last frame
+  std::optional<TimePoint> lastDeviceTime_;  ///< the last that was trusted
   std::optional<NextFrame> ended_;
   std::unique_ptr<Device> device_;
   std::unique_ptr<Stream> stream_;  ///< destroyed first
@@ -177,9 +178,14 @@ void Session::stamp(const Completed& completed, CapturedFrame& frame) {
   const TimePoint now = clock_.now();
   const TimePoint deviceTime(completed.timestamp);
   const bool isTrusted = completed.timestamp > Duration::zero() && deviceTime <= now &&
-                         deviceTime >= now - kOldest && (!lastTime_ || deviceTime > *lastTime_);
+                         deviceTime >= now - kOldest &&
+                         (!lastDeviceTime_ || deviceTime > *lastDeviceTime_);
+  if (isTrusted) lastDeviceTime_ = deviceTime;
+  // After a frame of which only the arrival is known, device times lag behind it for a while.
+  const bool isBehind = lastTime_ && deviceTime <= *lastTime_;
   frame.captureTime = isTrusted ? deviceTime : now;
-  frame.timestampSource = isTrusted ? TimestampSource::kEndOfReadout : TimestampSource::kArrival;
+  frame.timestampSource =
+      isTrusted && !isBehind ? TimestampSource::kEndOfReadout : TimestampSource::kArrival;
   if (lastTime_) frame.captureTime = std::max(frame.captureTime, *lastTime_ + Duration(1));
   lastTime_ = frame.captureTime;
   if (completed.sensorTime) {

@@ -22,13 +22,20 @@ class TagContradictionsTest : public testing::Test {
     return glm::translate(glm::dmat4(1.0), glm::dvec3(x, 0.0, 0.0));
   }
   /// A frame that shows these tags; of `strange` ones, which do not fit, their own places.
-  bool see(const std::vector<int>& fitting, const std::vector<int>& strange = {}) {
+  /// Those of `carried` do not fit either, and are not seen any more.
+  bool see(const std::vector<int>& fitting, const std::vector<int>& strange = {},
+           const std::vector<int>& carried = {}) {
     std::vector<tracking::TrackedTag> tags;
     const glm::dmat4 cameraFromWorld = glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, 0.2, 1.0));
     for (const int id : fitting)
       tags.push_back({.id = id, .cameraFromTag = cameraFromWorld * at(0.2 * id)});
     for (const int id : strange)
       tags.push_back({.id = id, .cameraFromTag = cameraFromWorld * at(0.2 * id + 0.02)});
+    for (const int id : carried) {
+      tags.push_back({.id = id,
+                      .cameraFromTag = cameraFromWorld * at(0.2 * id + 0.02),
+                      .source = tracking::PoseSource::kCarried});
+    }
     tracking::TrackingResult tracked;
     tracked.tags = tags;
     if (!fitting.empty()) tracked.cameraFromWorld = cameraFromWorld;
@@ -63,7 +70,15 @@ TEST_F(TagContradictionsTest, OfThreeThoseThatAgreeAre) {
 
 TEST_F(TagContradictionsTest, TheMachinesOwnTagPlacesItWhateverOthersAgreeOn) {
   EXPECT_TRUE(see({1, 2}, {0}));
+  EXPECT_TRUE(see({1, 2}, {}, {0})) << "a hand has covered it, and its pose is carried";
   EXPECT_FALSE(see({1, 2})) << "by the others";
+}
+
+TEST_F(TagContradictionsTest, AMachineWhoseTagHasNoPlaceIsPlacedByThatAlone) {
+  scene_.tags[0].worldFromTag.reset();
+  contradictions_.emplace(scene_, 0);
+  EXPECT_FALSE(see({1}, {2}));
+  EXPECT_FALSE(see({1}));
 }
 
 }  // namespace

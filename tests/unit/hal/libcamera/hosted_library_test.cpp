@@ -193,6 +193,16 @@ TEST_F(HostedLibraryTest, ACameraTakesOverTheProcessThatFoundIt) {
   EXPECT_FALSE(isThere(started[0]));
 }
 
+TEST_F(HostedLibraryTest, ACameraThatDoesNotStartIsLetGoThoughItsListingIsHeld) {
+  const auto found = library_.list();
+  ASSERT_TRUE(found);
+  auto device = library_.open(sensor.id);
+  ASSERT_TRUE(device);
+  EXPECT_EQ(started.size(), 1u);
+  device->reset();
+  EXPECT_FALSE(isThere(started[0])) << "it would keep the camera from whoever comes next";
+}
+
 TEST_F(HostedLibraryTest, AProcessThatEndedSinceItsListingHoldsUpNoCamera) {
   const auto found = library_.list();
   ASSERT_TRUE(found);

@@ -91,6 +91,29 @@ TEST_F(LibcameraCameraTest, TrustsTimesOfTheSteadyClockOnly) {
   EXPECT_EQ(frame().captureTime, begin + 120ms);
 }
 
+/// Frames arrive later than a period after their device time: a frame without one is younger than
+/// the next frames' device times.
+TEST_F(LibcameraCameraTest, TrustsTimesAgainAfterOneThatWasMissing) {
+  constexpr Duration kPeriod = 40ms;
+  constexpr Duration kOld = 60ms;
+  const TimePoint begin = clock_.now();
+  for (int i = 0; i < 5; ++i) {
+    sensor.frames[static_cast<std::uint32_t>(i)] = {
+        .timestamp = i == 1 ? Duration(0) : (begin + (i + 1) * kPeriod - kOld).time_since_epoch()};
+  }
+  ASSERT_TRUE(start());
+  using enum TimestampSource;
+  TimePoint last;
+  for (const TimestampSource expected :
+       {kEndOfReadout, kArrival, kArrival, kEndOfReadout, kEndOfReadout}) {
+    const CapturedFrame now = frame();
+    EXPECT_EQ(now.timestampSource, expected);
+    EXPECT_GT(now.captureTime, last);
+    last = now.captureTime;
+  }
+  EXPECT_EQ(last, begin + 5 * kPeriod - kOld);
+}
+
 TEST_F(LibcameraCameraTest, IsLostWhenLibcameraSaysSo) {
   sensor.frames[1] = {.isLost = true};
   ASSERT_TRUE(start());

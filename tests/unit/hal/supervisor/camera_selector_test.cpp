@@ -81,6 +81,18 @@ TEST_F(CameraSelectorTest, GivesUpOnDevicesThatComeAndGoForEver) {
   EXPECT_EQ(csi_->lists, 4);
 }
 
+TEST_F(CameraSelectorTest, StopsLookingWhenItIsInterrupted) {
+  usb_->add("webcam", {sound_}, "/dev/video1");
+  CameraSelector chosen = selector("auto");
+  csi_->whenListed = [&] {
+    chosen.devicesChanged();
+    chosen.interrupt();
+  };
+  EXPECT_FALSE(chosen.open({}));
+  EXPECT_EQ(csi_->lists, 1) << "a listing may take seconds";
+  EXPECT_EQ(usb_->lists, 0);
+}
+
 TEST_F(CameraSelectorTest, FollowsACameraToTheNodeThatItGotAfterAReset) {
   const auto device = usb_->add("046d:0825", {sound_}, "/dev/video0");
   const auto other = usb_->add("046d:9999", {sound_}, "/dev/video2");
