@@ -96,6 +96,9 @@ TEST_F(AravisLoopbackTest, DeliversThePixelsThatWereSent) {
 
 TEST_F(AravisLoopbackTest, FramesInPacketsThatTheNetworkDoesNotTakeAreInvalid) {
   if (!kHasPrivateNetwork || !support::setLoopbackMtu(1000)) GTEST_SKIP() << "its MTU is not ours";
+  struct Restored {
+    ~Restored() { EXPECT_TRUE(support::setLoopbackMtu(65536)); }
+  } const restored;
   const auto large = camera({.pixelFormat = "Mono8", .packetBytes = 1500});
   const auto stream = large->start({.size = FrameSize{320, 240}, .framePeriod = 20ms});
   ASSERT_TRUE(stream) << stream.error().message();
@@ -106,7 +109,6 @@ TEST_F(AravisLoopbackTest, FramesInPacketsThatTheNetworkDoesNotTakeAreInvalid) {
     ASSERT_NE(frame, nullptr) << n;
     EXPECT_NE(frame->health, FrameHealth::kValid) << n;
   }
-  EXPECT_TRUE(support::setLoopbackMtu(65536));
 }
 
 TEST_F(AravisLoopbackTest, TriggersBySoftware) {
