@@ -84,8 +84,9 @@ TEST_F(Memory, IsBoundedAt720Lines) {
   if (!fs::exists(input)) GTEST_SKIP() << "test data is not here: " << input;
   const long early = peakMebibytes(input.string(), 30);
   const long late = peakMebibytes(input.string(), 150);
-  EXPECT_LT(late, 400)
-      << "a software renderer keeps textures here, too; 18 are for movers before models";
+  EXPECT_LT(late, 415)
+      << "a software renderer keeps textures here, too; 18 are for movers before models, and a "
+         "dozen for shaders that are compiled in the run";
   EXPECT_LE(late, early + 16);
 }
 
