@@ -161,6 +161,7 @@ class LivePainting {
     if (service_ && service_->isDue(job_.clock->now())) reportToService();
     followHeat();
     followSite();
+    followProcedure();
     if (!outputs_.isUpdateDue()) return;
     const auto painting = paintStatus();
     outputs_.update({.camera = pipeline_.capture().status(),
@@ -383,7 +384,6 @@ class LivePainting {
     }
     updateWindow();
     attend();
-    attendProcedure();
     handleSnapshots();
     handleTuning();
     report();
@@ -413,8 +413,8 @@ class LivePainting {
     controls_.setOverlay(overlay_->update(job_.procedure->shown(), job_.clock->now()));
   }
 
-  /// Steps that keys have made, and stills that they want.
-  void attendProcedure() {
+  /// Steps that keys have made, and stills that they want; before there is a painting, too.
+  void followProcedure() {
     if (job_.procedure == nullptr) return;
     // A frame that is held is no evidence of what is done now.
     const bool isHeld = input_.isPaused();
@@ -423,16 +423,18 @@ class LivePainting {
       job_.procedure->locate(poseQualityOf(machine_, *tags));
     }
     job_.procedure->poll();
-    if (!isHeld && job_.procedure->takeStillRequest()) controls_.requestStill();
+    if (hasBegun_ && !isHeld && job_.procedure->takeStillRequest()) controls_.requestStill();
     if (auto still = controls_.takeStill()) {
       job_.procedure->putStill(std::move(still->image), still->place);
     }
     if (const auto notice = job_.procedure->takeNotice()) {
       notify(*notice, true);
-      overlay_->notify(*notice, job_.clock->now());
+      if (overlay_) overlay_->notify(*notice, job_.clock->now());
     }
-    if (auto content = overlay_->update(job_.procedure->shown(), job_.clock->now())) {
-      controls_.setOverlay(std::move(content));
+    if (overlay_) {
+      if (auto content = overlay_->update(job_.procedure->shown(), job_.clock->now())) {
+        controls_.setOverlay(std::move(content));
+      }
     }
     const runtime::ProcedureStatus status = job_.procedure->status();
     if (std::exchange(shownStep_, status.step) == status.step) return;
