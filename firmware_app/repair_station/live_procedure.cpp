@@ -52,7 +52,8 @@ LiveProcedure::LiveProcedure(LiveProcedureOptions options, const hal::Clock& clo
                                                             .operatorName = options_.operatorName,
                                                             .workOrder = options_.workOrder,
                                                             .program = options_.program,
-                                                            .language = options_.language}));
+                                                            .language = options_.language,
+                                                            .system = options_.system}));
   if (!session.resumed().empty()) note(procedure::filled(notices().resumed, session.resumed()));
   const bool hasStillBefore = session.hasStillBefore();
   worker_.emplace(std::move(session));
@@ -195,6 +196,7 @@ void LiveProcedure::goOn() {
   } else if (*kind == CheckKind::kCompare && comparesByItself(options_.folder, *step.check)) {
     if (stills_.hasAnswer()) return;
     stills_.add({.step = step.id,
+                 .version = stepper().procedurePointer(),
                  .when = "check",
                  .answer = {},
                  .compares = true,
@@ -271,6 +273,7 @@ void LiveProcedure::answer(const procedure::Answer& answer) {
 
 void LiveProcedure::wantStill(std::string when, std::optional<procedure::Answer> answer) {
   stills_.add({.step = stepper().step().id,
+               .version = stepper().procedurePointer(),
                .when = std::move(when),
                .answer = std::move(answer),
                .requested = clock_.now()});
@@ -298,6 +301,9 @@ void LiveProcedure::putStill(hal::Result<hal::Image> still,
   if (!still) return note(still.error().message());
   // One that was asked for before the step was left shows another step's work.
   if (pending->step != stepper().step().id) return;
+  if (pending->endsStep() && pending->version != stepper().procedurePointer()) {
+    return note(notices().wasEdited);
+  }
   if (!pending->compares) return saveStill(*pending, *std::move(still));
   if (!place) return note(notices().notLocated);
   compare(*pending, *std::move(still), *place);

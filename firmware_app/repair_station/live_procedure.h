@@ -30,6 +30,7 @@ struct LiveProcedureOptions {
   std::string workOrder;
   std::string program;         ///< version of this program
   bool stillsOfSteps = false;  ///< a still before and after each step, beside those of checks
+  record::RecordSystem system = record::RecordSystem::real();
 };
 
 /// A procedure that is carried out while painting goes on: keys in, steps and a record out. Main
@@ -40,7 +41,8 @@ struct LiveProcedureOptions {
 /// no question: a check is not passed by going on.
 ///
 /// A StepWorker writes the record. A step is left once its line is on the disk, which poll() sees;
-/// until then further answers are refused with a notice.
+/// until then further answers are refused with a notice. So is an answer that the thread finds a
+/// newer version of the procedure for: nobody has seen that version's text and limits.
 ///
 /// Of two inputs at once one counts: after an answer or a step back, other inputs are ignored for
 /// kOneAtATime, for whoever used them has not seen the new step.

@@ -28,11 +28,10 @@ void LiveProcedure::commit(const procedure::Answer& answer, const std::string& b
   const auto outcome = procedure::outcomeOf(stepper().step(), answer);
   if (!outcome) return;
   beginMove();
-  worker_->give([this, answer, by, outcome = *outcome, pose = poseNow(),
-                 step = stepper().step().id](StepSession& session) -> StepWorker::Then {
-    // The procedure may have been edited since.
-    const auto advance =
-        session.isAt(step) ? session.answer(answer, pose, by) : Advanced(record::Advance::kRefused);
+  worker_->give([this, answer, by, outcome = *outcome, pose = poseNow(), step = stepper().step().id,
+                 version = stepper().procedurePointer()](StepSession& session) -> StepWorker::Then {
+    const auto advance = session.isAt(step, *version) ? session.answer(answer, pose, by)
+                                                      : Advanced(record::Advance::kRefused);
     return [this, advance, outcome] { endMove(advance, outcome); };
   });
 }
@@ -42,7 +41,8 @@ void LiveProcedure::endMove(const hal::Result<record::Advance>& advance,
                             procedure::Outcome outcome) {
   moves_ = false;
   if (!advance) return noteFailure(advance.error(), false);
-  if (*advance == record::Advance::kRefused) return;
+  // The thread had read another version before: nobody has seen its text and limits.
+  if (*advance == record::Advance::kRefused) return note(notices().wasEdited);
   moved_ = clock_.now();
   typed_.clear();
   if (*advance == record::Advance::kStayed) {
@@ -117,7 +117,8 @@ void LiveProcedure::saveStill(const PendingStill& pending, hal::Image still) {
   worker_->give([this, pending, outcome, pose = poseNow(),
                  image = std::make_shared<const hal::Image>(std::move(still))](
                     StepSession& session) -> StepWorker::Then {
-    const bool isAt = session.isAt(pending.step);
+    const bool isAt =
+        outcome ? session.isAt(pending.step, *pending.version) : session.isAt(pending.step);
     const auto saved = isAt ? session.addStill(pending.when, image->view()) : hal::Result<void>();
     auto advance = Advanced(record::Advance::kRefused);
     if (isAt && saved && outcome) advance = session.answer(*pending.answer, pose, {});
@@ -145,10 +146,10 @@ void LiveProcedure::compare(const PendingStill& pending, hal::Image still,
         noteFailure(error, isStill);
       };
     };
-    const auto nothing = [this] { moves_ = false; };
-    if (!session.isAt(pending.step)) return nothing;
+    if (!session.isAt(pending.step, *pending.version)) {
+      return [this] { endMove(record::Advance::kRefused, procedure::Outcome::kUncertain); };
+    }
     const procedure::Step step = session.stepper().step();
-    if (step.checkKind() != procedure::CheckKind::kCompare) return nothing;  // edited since
     if (const auto saved = session.addStill(pending.when, image->view()); !saved) {
       return failed(saved.error(), true);
     }
