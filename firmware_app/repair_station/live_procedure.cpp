@@ -33,6 +33,13 @@ bool movesStep(const hal::KeyPressed& key) {
          key.name == "y" || key.name == "n" || key.name == "u" || (key.name == "x" && key.shift);
 }
 
+std::optional<std::string> takeFrom(std::deque<std::string>& texts) {
+  if (texts.empty()) return std::nullopt;
+  std::string text = std::move(texts.front());
+  texts.pop_front();
+  return text;
+}
+
 }  // namespace
 
 LiveProcedure::LiveProcedure(LiveProcedureOptions options, const hal::Clock& clock)
@@ -298,7 +305,7 @@ void LiveProcedure::putStill(hal::Result<hal::Image> still,
                              const std::optional<inspection::TemplatePose>& place) {
   const std::optional<PendingStill> pending = stills_.take();
   if (!pending || isSignedOff() || stepper().isFinished()) return;
-  if (!still) return note(still.error().message());
+  if (!still) return fail(still.error().message());
   // One that was asked for before the step was left shows another step's work.
   if (pending->step != stepper().step().id) return;
   if (pending->endsStep() && pending->version != stepper().procedurePointer()) {
@@ -323,7 +330,7 @@ fs::file_time_type LiveProcedure::newestFile() const {
 void LiveProcedure::poll() {
   if (worker_->poll()) publish();
   const hal::TimePoint now = clock_.now();
-  if (stills_.dropOverdue(now)) note(notices().noPicture);
+  if (stills_.dropOverdue(now)) fail(notices().noPicture);
   if (now - polled_ >= kProcedurePollInterval && !isSignedOff() && !isReading_) {
     polled_ = now;
     const fs::file_time_type newest = newestFile();
@@ -334,6 +341,14 @@ void LiveProcedure::poll() {
 void LiveProcedure::finish() {
   worker_->finish();
   publish();
+}
+
+LiveProcedure::RecordEnd LiveProcedure::end(hal::Duration patience) {
+  isEnding_ = true;
+  const bool isDone = worker_->finish(patience);
+  publish();
+  if (isDone) return RecordEnd::kWritten;
+  return isReading_ && worker_->open() == 1 ? RecordEnd::kIsReading : RecordEnd::kIsWriting;
 }
 
 std::string LiveProcedure::text() const {
@@ -362,8 +377,16 @@ StepShown LiveProcedure::shown() const {
   return shown;
 }
 
+void LiveProcedure::put(std::deque<std::string>& texts, std::string_view text) {
+  if (texts.empty() || texts.back() != text) texts.emplace_back(text);
+}
+
 std::optional<std::string> LiveProcedure::takeNotice() {
-  return std::exchange(notice_, std::nullopt);
+  return takeFrom(notices_);
+}
+
+std::optional<std::string> LiveProcedure::takeFailure() {
+  return takeFrom(failures_);
 }
 
 void LiveProcedure::publish() {

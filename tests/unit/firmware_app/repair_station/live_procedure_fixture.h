@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -53,11 +54,13 @@ class LiveProcedureTest : public testing::Test {
     clock_.advance(std::chrono::seconds(1));
   }
 
-  LiveProcedure begin(bool isRecorded = true) {
+  LiveProcedure begin(bool isRecorded = true,
+                      record::RecordSystem system = record::RecordSystem::real()) {
     return LiveProcedure({.folder = procedure(),
                           .records = isRecorded ? records() : std::filesystem::path(),
                           .operatorName = "Jo",
-                          .program = "1"},
+                          .program = "1",
+                          .system = std::move(system)},
                          clock_);
   }
 

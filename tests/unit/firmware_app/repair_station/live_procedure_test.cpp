@@ -94,7 +94,8 @@ TEST_F(LiveProcedureTest, IsReadAgainWhenItIsSaved) {
     edit(limit);
     live.poll();
     live.finish();
-    return live.takeNotice().value_or("");
+    const auto failure = live.takeFailure();
+    return failure ? *failure : live.takeNotice().value_or("");
   };
   EXPECT_EQ(save("max = 3"), "the procedure was read again");
   EXPECT_EQ(live.status().step, "look");
@@ -138,7 +139,7 @@ TEST_F(LiveProcedureTest, ACameraThatGivesNoPictureKeepsTheStep) {
   EXPECT_TRUE(live.takeStillRequest());
   clock_.advance(std::chrono::seconds(3));
   live.poll();
-  EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("gives no picture"));
+  EXPECT_THAT(live.takeFailure().value_or(""), HasSubstr("gives no picture"));
   EXPECT_EQ(live.status().step, "shoot");
   live.putStill(picture());  // late
   live.finish();
@@ -198,7 +199,7 @@ TEST_F(LiveProcedureTest, ADiskThatIsFullAtAStillKeepsTheStepUntilThereIsSpace) 
     }
     live.putStill(noise);
     live.finish();
-    EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("too large"));
+    EXPECT_THAT(live.takeFailure().value_or(""), HasSubstr("too large"));
     EXPECT_EQ(live.status().step, "shoot");
   }
   EXPECT_EQ(record::checkRecordFile(live.status().record)->entries.size(), lines);
@@ -232,16 +233,6 @@ TEST_F(LiveProcedureTest, OperatorsWhoTakeOverAreInTheRecord) {
     }
   }
   EXPECT_THAT(names, testing::ElementsAre("Kim", "Li"));
-}
-
-TEST_F(LiveProcedureTest, AStepIsLeftOnceItsLineIsOnTheDisk) {
-  LiveProcedure live = begin();
-  EXPECT_TRUE(live.press({.name = "pagedown"}));
-  EXPECT_EQ(live.status().step, "open") << "until it is on the disk, and poll() has seen that";
-  EXPECT_TRUE(live.press({.name = "pagedown"}));
-  EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("being written"));
-  live.finish();
-  EXPECT_EQ(live.status().step, "look") << "the second press did not count";
 }
 
 TEST_F(LiveProcedureTest, LinesAreInTheOrderInWhichTheyWereGiven) {
