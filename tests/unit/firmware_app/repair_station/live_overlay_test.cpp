@@ -91,5 +91,27 @@ TEST_F(LiveOverlayTest, AnotherTextKeepsTheInset) {
   EXPECT_NE(made(step(0, "Gap: 1_")), nullptr) << "the notice is gone";
 }
 
+TEST_F(LiveOverlayTest, ALaterNoticeHidesNoFailure) {
+  LiveOverlay overlay(procedure_->model.get(), kGearbox, {1280, 720}, false, {});
+  const auto heightOf = [&] {
+    for (;;) {
+      if (const auto content = overlay.update(step(procedure::kEnd), now_))
+        return content->panel.size().height;
+      std::this_thread::yield();
+    }
+  };
+  const int plain = heightOf();
+  overlay.notifyFailure("the disk is full", now_);
+  const int failed = heightOf();
+  EXPECT_GT(failed, plain);
+  overlay.notify("two inputs at once", now_);
+  const int both = heightOf();
+  EXPECT_GT(both, failed);
+  overlay.notify("one moment", now_ + std::chrono::seconds(4));
+  EXPECT_EQ(heightOf(), both) << "in place of the notice, not of the failure";
+  now_ += std::chrono::seconds(6);
+  EXPECT_EQ(heightOf(), failed) << "the failure had its time";
+}
+
 }  // namespace
 }  // namespace pleinair::app
