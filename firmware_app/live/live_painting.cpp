@@ -58,6 +58,8 @@ constexpr hal::Duration kReportInterval = 100ms;
 constexpr hal::Duration kWindowPatience = 1s;
 /// Part of the two seconds that ending may take; the rest is for the exit itself.
 constexpr hal::Duration kStopPatience = 1500ms;
+/// The least time for the record, where other threads have used that up.
+constexpr hal::Duration kRecordPatience = 300ms;
 
 /// The life of a live pipeline, from waiting for its camera to its closing line, with its status
 /// server, snapshots and reports. Main thread.
@@ -85,16 +87,19 @@ class LivePainting {
   void run() {
     try {
       paintUntilEnd();
+      finish();
     } catch (...) {
       // Threads end here, where the error is known that decides the exit status should one hang.
       stopThreads();
+      finishProcedure();
       writeFrameLog();
       throw;
     }
-    finish();
   }
 
  private:
+  using RecordEnd = LiveProcedure::RecordEnd;
+
   void paintUntilEnd() {
     began_ = job_.clock->now();
     outputs_.startScreens();  // before the camera, which the camera thread opens
@@ -161,6 +166,7 @@ class LivePainting {
     if (service_ && service_->isDue(job_.clock->now())) reportToService();
     followHeat();
     followSite();
+    followProcedure();
     if (!outputs_.isUpdateDue()) return;
     const auto painting = paintStatus();
     outputs_.update({.camera = pipeline_.capture().status(),
@@ -383,7 +389,6 @@ class LivePainting {
     }
     updateWindow();
     attend();
-    attendProcedure();
     handleSnapshots();
     handleTuning();
     report();
@@ -413,8 +418,8 @@ class LivePainting {
     controls_.setOverlay(overlay_->update(job_.procedure->shown(), job_.clock->now()));
   }
 
-  /// Steps that keys have made, and stills that they want.
-  void attendProcedure() {
+  /// Steps that keys have made, and stills that they want; before there is a painting, too.
+  void followProcedure() {
     if (job_.procedure == nullptr) return;
     // A frame that is held is no evidence of what is done now.
     const bool isHeld = input_.isPaused();
@@ -423,16 +428,22 @@ class LivePainting {
       job_.procedure->locate(poseQualityOf(machine_, *tags));
     }
     job_.procedure->poll();
-    if (!isHeld && job_.procedure->takeStillRequest()) controls_.requestStill();
+    if (hasBegun_ && !isHeld && job_.procedure->takeStillRequest()) controls_.requestStill();
     if (auto still = controls_.takeStill()) {
       job_.procedure->putStill(std::move(still->image), still->place);
     }
-    if (const auto notice = job_.procedure->takeNotice()) {
-      notify(*notice, true);
-      overlay_->notify(*notice, job_.clock->now());
+    while (const auto failure = job_.procedure->takeFailure()) {
+      notify(*failure, false);
+      if (overlay_) overlay_->notifyFailure(*failure, job_.clock->now());
     }
-    if (auto content = overlay_->update(job_.procedure->shown(), job_.clock->now())) {
-      controls_.setOverlay(std::move(content));
+    while (const auto notice = job_.procedure->takeNotice()) {
+      notify(*notice, true);
+      if (overlay_) overlay_->notify(*notice, job_.clock->now());
+    }
+    if (overlay_) {
+      if (auto content = overlay_->update(job_.procedure->shown(), job_.clock->now())) {
+        controls_.setOverlay(std::move(content));
+      }
     }
     const runtime::ProcedureStatus status = job_.procedure->status();
     if (std::exchange(shownStep_, status.step) == status.step) return;
@@ -466,11 +477,21 @@ class LivePainting {
     } while (saveSnapshot());
   }
 
-  /// What was answered last is on the disk before the program ends.
+  /// What was answered last is on the disk before the program ends. Idempotent. Does not return if
+  /// the record's thread hangs.
   void finishProcedure() {
-    if (job_.procedure == nullptr) return;
-    job_.procedure->finish();
-    if (const auto notice = job_.procedure->takeNotice()) notify(*notice, true);
+    if (awaitRecord() != RecordEnd::kWritten) exitWithStuckThreads({});
+  }
+
+  RecordEnd awaitRecord() {
+    if (job_.procedure == nullptr) return RecordEnd::kWritten;
+    if (recordEnd_) return *recordEnd_;
+    const auto now = std::chrono::steady_clock::now();
+    const hal::Duration left = stopsBy_.value_or(now + kStopPatience) - now;
+    recordEnd_ = job_.procedure->end(std::max<hal::Duration>(left, kRecordPatience));
+    while (const auto failure = job_.procedure->takeFailure()) notify(*failure, false);
+    while (const auto notice = job_.procedure->takeNotice()) notify(*notice, true);
+    return *recordEnd_;
   }
 
   void reportSnapshot(const hal::Result<std::filesystem::path>& saved) {
@@ -507,13 +528,13 @@ class LivePainting {
     const hal::Duration elapsed = job_.clock->now() - began_;
     stopThreads();
     finishSnapshots();
-    finishProcedure();
     outputs_.finish();
     writeFrameLog();
+    if (!failure_ && !failures_.empty()) failure_ = failures_.front();
+    if (!failure_) finishProcedure();  // else where the failure is handled
     reporter_.interrupt();
     const runtime::LedgerCounts ledger = pipeline_.ledger().counts();
     printSummary(ledger.summary(elapsed));
-    if (!failure_ && !failures_.empty()) failure_ = failures_.front();
     if (failure_) throw hal::Failure(*failure_);
   }
 
@@ -522,6 +543,7 @@ class LivePainting {
     if (!threads_) return;
     if (service_) service_->stopping();
     isStopping_ = true;
+    stopsBy_ = std::chrono::steady_clock::now() + kStopPatience;
     const runtime::LiveThreads::Stopped stopped = threads_->stop(kStopPatience);
     if (!stopped.stuck.empty()) exitWithStuckThreads(stopped.stuck);
     failures_ = stopped.failures;
@@ -540,10 +562,11 @@ class LivePainting {
   /// Exits the process without destroying the objects, which the stuck threads still use. An error
   /// that is being handled is reported and decides the status. A painter that is still being
   /// created is no failure: a driver cannot be stopped while it compiles a program, and nothing has
-  /// been painted that could be lost.
-  [[noreturn]] void exitWithStuckThreads(const std::vector<std::string>& stuck) {
+  /// been painted that could be lost. Nor is a procedure that is being read again.
+  [[noreturn]] void exitWithStuckThreads(std::vector<std::string> stuck) {
     reporter_.interrupt();
     input_.releaseConsole();
+    const RecordEnd record = awaitRecord();
     const auto isOutput = [](const std::string& name) { return name.starts_with("output"); };
     if (!hasBegun_ && std::ranges::none_of(stuck, isOutput)) {
       for (std::size_t i = 0; i < pipeline_.outputCount(); ++i) pipeline_.output(i).discard();
@@ -556,7 +579,9 @@ class LivePainting {
     }
     const bool isOnlyStarting =
         !hasBegun_ && stuck.size() == 1 && stuck.front() == runtime::LiveThreads::kPainter;
-    if (!isOnlyStarting) {
+    const bool isHarmless = record != RecordEnd::kIsWriting && (stuck.empty() || isOnlyStarting);
+    if (record != RecordEnd::kWritten) stuck.emplace_back("record");
+    if (!isHarmless) {
       spdlog::error("{} did not end in time and was left behind", fmt::join(stuck, ", "));
       if (status == ExitStatus::kSuccess) status = ExitStatus::kInternal;
     }
@@ -587,9 +612,11 @@ class LivePainting {
   hal::TimePoint reported_;
   std::string waitingCause_;
   std::optional<LiveOverlay> overlay_;  ///< where there is a procedure
-  std::string shownStep_;               ///< of the procedure, in the log
-  MachinePlace machine_;                ///< of the procedure, in the scene
-  std::string style_;                   ///< of the painter that was made, or is being made
+  std::optional<RecordEnd> recordEnd_;
+  std::optional<std::chrono::steady_clock::time_point> stopsBy_;
+  std::string shownStep_;  ///< of the procedure, in the log
+  MachinePlace machine_;   ///< of the procedure, in the scene
+  std::string style_;      ///< of the painter that was made, or is being made
   const std::function<bool()> isSignalled_ = cancelledBySignal();
   std::atomic<bool> isStopping_ = false;
   std::vector<hal::Error> failures_;   ///< errors of outputs, at the end

@@ -13,7 +13,8 @@ namespace pleinair::app {
 /// opened and the GL context is made.
 ///
 /// It ends within two seconds of a signal, which the caller's Interrupt receives. If a thread hangs
-/// in a driver, the process exits here, with status 1, or 0 if nothing had been painted yet.
+/// in a driver or at a disk, the process exits here, with status 1, or 0 if nothing is lost:
+/// nothing had been painted yet, or a procedure was being read again.
 int runLive(const LiveJob& job);
 
 }  // namespace pleinair::app

@@ -34,14 +34,26 @@ LiveOverlay::LiveOverlay(const scene::Model* machine, std::filesystem::path fold
       cards_(std::move(cards)) {}
 
 void LiveOverlay::notify(const std::string& text, hal::TimePoint now) {
-  notice_ = text;
-  noticeEnds_ = now + kNoticeFor;
+  notice_ = {.text = text, .ends = now + kNoticeFor};
+}
+
+void LiveOverlay::notifyFailure(const std::string& text, hal::TimePoint now) {
+  const std::string before = failure_.at(now);
+  const bool isNew = before.find(text) == std::string::npos;
+  failure_ = {.text = before + (before.empty() || !isNew ? "" : "\n") + (isNew ? text : ""),
+              .ends = now + kNoticeFor};
+}
+
+const std::string& LiveOverlay::Passing::at(hal::TimePoint now) {
+  if (now >= ends) text.clear();
+  return text;
 }
 
 std::shared_ptr<const overlay::OverlayContent> LiveOverlay::update(StepShown shown,
                                                                    hal::TimePoint now) {
-  if (now >= noticeEnds_) notice_.clear();
-  shown.notice = notice_;
+  const std::string& failure = failure_.at(now);
+  const std::string& notice = notice_.at(now);
+  shown.notice = failure + (failure.empty() || notice.empty() ? "" : "\n") + notice;
   Content made;
   if (making_.valid() && making_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
     made = content_ = making_.get();

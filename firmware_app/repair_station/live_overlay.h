@@ -24,8 +24,10 @@ class LiveOverlay {
   LiveOverlay(const scene::Model* machine, std::filesystem::path folder, hal::FrameSize output,
               bool showsInset, std::vector<int> cards);
 
-  /// Shows a text for some seconds: a check that failed, a full disk.
+  /// Shows a text for some seconds, in place of the last one: a check that failed.
   void notify(const std::string& text, hal::TimePoint now);
+  /// The same for a failure, such as a full disk, which stands above other texts for its time.
+  void notifyFailure(const std::string& text, hal::TimePoint now);
   /// The overlay, once it is made, if it is another one than that of the last call; else null. A
   /// new step takes some 0.1 s, a new text a few ms; the first call waits for it.
   std::shared_ptr<const overlay::OverlayContent> update(StepShown shown, hal::TimePoint now);
@@ -41,8 +43,13 @@ class LiveOverlay {
   std::vector<int> cards_;
   std::optional<StepShown> last_;  ///< that was made, or is being made
   Content content_;
-  std::string notice_;
-  hal::TimePoint noticeEnds_;
+  struct Passing {
+    std::string text;
+    hal::TimePoint ends;
+    const std::string& at(hal::TimePoint now);
+  };
+  Passing notice_;
+  Passing failure_;
   std::future<Content> making_;  ///< the last member: it uses others
 };
 

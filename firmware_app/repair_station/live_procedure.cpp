@@ -33,6 +33,13 @@ bool movesStep(const hal::KeyPressed& key) {
          key.name == "y" || key.name == "n" || key.name == "u" || (key.name == "x" && key.shift);
 }
 
+std::optional<std::string> takeFrom(std::deque<std::string>& texts) {
+  if (texts.empty()) return std::nullopt;
+  std::string text = std::move(texts.front());
+  texts.pop_front();
+  return text;
+}
+
 }  // namespace
 
 LiveProcedure::LiveProcedure(LiveProcedureOptions options, const hal::Clock& clock)
@@ -52,7 +59,8 @@ LiveProcedure::LiveProcedure(LiveProcedureOptions options, const hal::Clock& clo
                                                             .operatorName = options_.operatorName,
                                                             .workOrder = options_.workOrder,
                                                             .program = options_.program,
-                                                            .language = options_.language}));
+                                                            .language = options_.language,
+                                                            .system = options_.system}));
   if (!session.resumed().empty()) note(procedure::filled(notices().resumed, session.resumed()));
   const bool hasStillBefore = session.hasStillBefore();
   worker_.emplace(std::move(session));
@@ -195,6 +203,7 @@ void LiveProcedure::goOn() {
   } else if (*kind == CheckKind::kCompare && comparesByItself(options_.folder, *step.check)) {
     if (stills_.hasAnswer()) return;
     stills_.add({.step = step.id,
+                 .version = stepper().procedurePointer(),
                  .when = "check",
                  .answer = {},
                  .compares = true,
@@ -271,6 +280,7 @@ void LiveProcedure::answer(const procedure::Answer& answer) {
 
 void LiveProcedure::wantStill(std::string when, std::optional<procedure::Answer> answer) {
   stills_.add({.step = stepper().step().id,
+               .version = stepper().procedurePointer(),
                .when = std::move(when),
                .answer = std::move(answer),
                .requested = clock_.now()});
@@ -295,9 +305,12 @@ void LiveProcedure::putStill(hal::Result<hal::Image> still,
                              const std::optional<inspection::TemplatePose>& place) {
   const std::optional<PendingStill> pending = stills_.take();
   if (!pending || isSignedOff() || stepper().isFinished()) return;
-  if (!still) return note(still.error().message());
+  if (!still) return fail(still.error().message());
   // One that was asked for before the step was left shows another step's work.
   if (pending->step != stepper().step().id) return;
+  if (pending->endsStep() && pending->version != stepper().procedurePointer()) {
+    return note(notices().wasEdited);
+  }
   if (!pending->compares) return saveStill(*pending, *std::move(still));
   if (!place) return note(notices().notLocated);
   compare(*pending, *std::move(still), *place);
@@ -317,7 +330,7 @@ fs::file_time_type LiveProcedure::newestFile() const {
 void LiveProcedure::poll() {
   if (worker_->poll()) publish();
   const hal::TimePoint now = clock_.now();
-  if (stills_.dropOverdue(now)) note(notices().noPicture);
+  if (stills_.dropOverdue(now)) fail(notices().noPicture);
   if (now - polled_ >= kProcedurePollInterval && !isSignedOff() && !isReading_) {
     polled_ = now;
     const fs::file_time_type newest = newestFile();
@@ -328,6 +341,14 @@ void LiveProcedure::poll() {
 void LiveProcedure::finish() {
   worker_->finish();
   publish();
+}
+
+LiveProcedure::RecordEnd LiveProcedure::end(hal::Duration patience) {
+  isEnding_ = true;
+  const bool isDone = worker_->finish(patience);
+  publish();
+  if (isDone) return RecordEnd::kWritten;
+  return isReading_ && worker_->open() == 1 ? RecordEnd::kIsReading : RecordEnd::kIsWriting;
 }
 
 std::string LiveProcedure::text() const {
@@ -356,8 +377,16 @@ StepShown LiveProcedure::shown() const {
   return shown;
 }
 
+void LiveProcedure::put(std::deque<std::string>& texts, std::string_view text) {
+  if (texts.empty() || texts.back() != text) texts.emplace_back(text);
+}
+
 std::optional<std::string> LiveProcedure::takeNotice() {
-  return std::exchange(notice_, std::nullopt);
+  return takeFrom(notices_);
+}
+
+std::optional<std::string> LiveProcedure::takeFailure() {
+  return takeFrom(failures_);
 }
 
 void LiveProcedure::publish() {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
+#include <deque>
 #include <filesystem>
 #include <mutex>
 #include <optional>
@@ -30,6 +32,7 @@ struct LiveProcedureOptions {
   std::string workOrder;
   std::string program;         ///< version of this program
   bool stillsOfSteps = false;  ///< a still before and after each step, beside those of checks
+  record::RecordSystem system = record::RecordSystem::real();
 };
 
 /// A procedure that is carried out while painting goes on: keys in, steps and a record out. Main
@@ -40,7 +43,8 @@ struct LiveProcedureOptions {
 /// no question: a check is not passed by going on.
 ///
 /// A StepWorker writes the record. A step is left once its line is on the disk, which poll() sees;
-/// until then further answers are refused with a notice.
+/// until then further answers are refused with a notice. So is an answer that the thread finds a
+/// newer version of the procedure for: nobody has seen that version's text and limits.
 ///
 /// Of two inputs at once one counts: after an answer or a step back, other inputs are ignored for
 /// kOneAtATime, for whoever used them has not seen the new step.
@@ -68,10 +72,12 @@ class LiveProcedure {
   std::string text() const;
   /// What the current step shows.
   StepShown shown() const;
-  /// What has happened since the last call, for the caption and the log: a check that failed, a
-  /// full disk, a mistake in an edited procedure. In the procedure's language, but for what the
-  /// system says.
+  /// What has happened, for the caption and the log, a text each call, in order: a check that
+  /// failed, an input that did not count. In the procedure's language, but for what the system
+  /// says.
   std::optional<std::string> takeNotice();
+  /// The same of what is not done or not recorded: a full disk, a mistake in an edited procedure.
+  std::optional<std::string> takeFailure();
   /// The language in force.
   const std::string& language() const { return options_.language; }
 
@@ -88,8 +94,19 @@ class LiveProcedure {
   /// Takes what the worker has done, and reads the procedure again when its files have changed, at
   /// most twice a second.
   void poll();
-  /// Waits until all that was answered is on the disk, or has failed: for the end, and for tests.
+  /// Whether an answer is being written or waits for its picture: another would be refused.
+  bool isBusy() const { return moves_ || stills_.hasAnswer(); }
+  /// Waits until all that was answered is on the disk, or has failed. For tests.
   void finish();
+  /// How the record's thread was left.
+  enum class RecordEnd {
+    kWritten,    ///< it has nothing left to do
+    kIsReading,  ///< a procedure, and nothing else; it still uses this
+    kIsWriting,  ///< it still uses this
+  };
+  /// The same for the end, and for at most `patience` of real time. Nothing is given afterwards. A
+  /// procedure that was edited is not read any more.
+  RecordEnd end(hal::Duration patience);
 
   /// Any thread.
   runtime::ProcedureStatus status() const;
@@ -111,7 +128,10 @@ class LiveProcedure {
   void wantStill(std::string when, std::optional<procedure::Answer> answer = std::nullopt);
   void commit(const procedure::Answer& answer, const std::string& by = {});
   void beginMove();
-  void endMove(const hal::Result<record::Advance>& advance, procedure::Outcome outcome);
+  void giveMove(StepWorker::Job job);
+  void giveAside(StepWorker::Job job);
+  void endMove(const hal::Result<record::Advance>& advance, procedure::Outcome outcome,
+               bool isTold = false);
   void saveStill(const PendingStill& pending, hal::Image still);
   void compare(const PendingStill& pending, hal::Image still,
                const inspection::TemplatePose& place);
@@ -121,8 +141,12 @@ class LiveProcedure {
   void changeOperator(const std::string& name);
   void signOff();
   void readAgain();
-  void note(std::string_view text) { notice_ = text; }
-  void noteFailure(const hal::Error& error, bool isStill);
+  void note(std::string_view text) { put(notices_, text); }
+  void fail(std::string_view text) { put(failures_, text); }
+  static void put(std::deque<std::string>& texts, std::string_view text);
+  /// What could not be written, or what was needed for that.
+  enum class Unwritten { kAnswer, kStillOfAnswer, kOther };
+  void noteFailure(const hal::Error& error, Unwritten what);
   const procedure::Notices& notices() const { return procedure::noticesIn(options_.language); }
   void publish();
   std::filesystem::file_time_type newestFile() const;
@@ -130,13 +154,15 @@ class LiveProcedure {
   LiveProcedureOptions options_;
   const hal::Clock& clock_;
   std::string typed_;  // digits of a value
-  std::optional<std::string> notice_;
+  std::deque<std::string> notices_;
+  std::deque<std::string> failures_;
   PendingStills stills_;
   std::optional<record::PoseQuality> pose_;
-  hal::TimePoint located_;               // when pose_ was told
-  bool mayJudge_ = false;                // the program was uncertain at this step
-  bool moves_ = false;                   // an answer, a way back or a sign-off is being written
-  bool isReading_ = false;               // the procedure, again
+  hal::TimePoint located_;  // when pose_ was told
+  bool mayJudge_ = false;   // the program was uncertain at this step
+  bool moves_ = false;      // an answer, a way back or a sign-off is being written
+  bool isReading_ = false;  // the procedure, again
+  std::atomic<bool> isEnding_ = false;
   std::string source_;                   // of the input that is handled
   std::string moveSource_;               // of the last answer or step back
   std::optional<hal::TimePoint> moved_;  // when it was

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -12,11 +14,15 @@ namespace pleinair::app {
 /// A still of the camera that a procedure waits for.
 struct PendingStill {
   std::string step;  ///< that it belongs to
+  /// The version by which it was asked for.
+  std::shared_ptr<const procedure::Procedure> version;
   std::string when;  ///< "before", "after", "check", "extra"
   /// The answer that ends the step once the still is saved; nothing: the step goes on.
   std::optional<procedure::Answer> answer;
   bool compares = false;  ///< the still, compared with the template, is the answer
   hal::TimePoint requested{};
+
+  bool endsStep() const { return answer || compares; }
 };
 
 /// The stills that are wanted, one after the other. One thread.
@@ -44,12 +50,7 @@ class PendingStills {
     return still;
   }
   /// Whether an answer waits for its still.
-  bool hasAnswer() const {
-    for (const PendingStill& each : stills_) {
-      if (each.answer || each.compares) return true;
-    }
-    return false;
-  }
+  bool hasAnswer() const { return std::ranges::any_of(stills_, &PendingStill::endsStep); }
   /// Removes all if the first one is overdue; returns whether an answer was among them.
   bool dropOverdue(hal::TimePoint now) {
     if (stills_.empty() || now - stills_.front().requested < kPatience) return false;

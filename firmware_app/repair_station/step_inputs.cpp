@@ -1,7 +1,5 @@
 #include "firmware_app/repair_station/step_inputs.h"
 
-#include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace pleinair::app {
@@ -29,10 +27,12 @@ hal::Result<void> StepCommandQueue::put(procedure::StepCommand command) {
   return {};
 }
 
-void StepCommandQueue::take(std::vector<procedure::StepCommand>& commands) {
+std::optional<procedure::StepCommand> StepCommandQueue::take() {
   const std::scoped_lock lock(mutex_);
-  std::ranges::move(waiting_, std::back_inserter(commands));
-  waiting_.clear();
+  if (waiting_.empty()) return std::nullopt;
+  procedure::StepCommand command = std::move(waiting_.front());
+  waiting_.pop_front();
+  return command;
 }
 
 StepInputs::StepInputs(InputMap map, hal::KeyboardDevices& devices, LiveProcedure& procedure,
@@ -57,10 +57,10 @@ StepInputs::Taken StepInputs::poll() {
       obey(found->second, nameOf(each.device));
     }
   }
-  if (queue_ != nullptr) {
-    queued_.clear();
-    queue_->take(queued_);
-    for (const procedure::StepCommand& each : queued_) obey(each, std::string(notices().theServer));
+  while (queue_ != nullptr && !procedure_.isBusy()) {
+    const auto command = queue_->take();
+    if (!command) break;
+    obey(*command, std::string(notices().theServer));
   }
   buttons_.takeProblems(taken_.problems);
   std::vector<hal::InputDevices::Change> changes;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -24,11 +25,12 @@ class StepCommandQueue {
 
   /// Error: kBusy, while too many wait.
   hal::Result<void> put(procedure::StepCommand command);
-  void take(std::vector<procedure::StepCommand>& commands);
+  /// The oldest; nothing where none waits.
+  std::optional<procedure::StepCommand> take();
 
  private:
   std::mutex mutex_;
-  std::vector<procedure::StepCommand> waiting_;
+  std::deque<procedure::StepCommand> waiting_;
 };
 
 /// The inputs of a procedure that is carried out, beside the keys of the window: buttons of mapped
@@ -51,6 +53,7 @@ class StepInputs {
     std::vector<std::string> notices;  ///< a device that has come or gone
     std::vector<hal::Error> problems;  ///< of devices that cannot be read
   };
+  /// Commands from elsewhere wait while the procedure is busy: a program may send some at once.
   Taken poll();
   /// Takes the tags of a frame, each frame once, for command cards.
   void see(std::span<const ShownTag> tags, hal::TimePoint captured);
@@ -66,8 +69,7 @@ class StepInputs {
   hal::Buttons buttons_;
   CommandCards cards_;
   std::vector<hal::ButtonPressed> pressed_;  ///< a member so that its memory is reused, as below
-  std::vector<procedure::StepCommand> queued_;
-  std::optional<hal::TimePoint> seen_;  ///< the last frame
+  std::optional<hal::TimePoint> seen_;       ///< the last frame
   Taken taken_;
 };
 

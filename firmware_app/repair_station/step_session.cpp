@@ -19,7 +19,8 @@ hal::Result<StepSession> StepSession::open(std::shared_ptr<const procedure::Proc
   StepSession opened{procedure::Stepper(procedure)};
   if (options.records.empty()) return opened;
   if (const auto path = openRecordIn(options.records, procedure->name)) {
-    auto session = record::WorkSession::resume(procedure, *path, options.program);
+    auto session = record::WorkSession::resume(procedure, *path, options.program,
+                                               record::systemMoment, options.system);
     if (!session) return tl::unexpected(std::move(session.error()));
     opened.session_.emplace(*std::move(session));
     opened.resumed_ = path->string();
@@ -37,7 +38,8 @@ hal::Result<StepSession> StepSession::open(std::shared_ptr<const procedure::Proc
       {.program = options.program,
        .operatorName = options.operatorName.empty() ? kUnnamed : options.operatorName,
        .workOrder = options.workOrder,
-       .language = options.language});
+       .language = options.language},
+      record::systemMoment, options.system);
   if (!session) return tl::unexpected(std::move(session.error()));
   opened.session_.emplace(*std::move(session));
   return opened;

@@ -27,6 +27,7 @@ struct SessionOptions {
   std::string workOrder;
   std::string program;  ///< version of this program
   std::string language;
+  record::RecordSystem system = record::RecordSystem::real();
 };
 
 /// A procedure that is carried out, with a record or without. Calls wait for the disk. One thread
@@ -43,6 +44,10 @@ class StepSession {
   bool isSignedOff() const { return session_ && session_->record().isSignedOff(); }
   /// Whether the step with this id is the current one, and can still be ended.
   bool isAt(const std::string& step) const;
+  /// The same, and the version in force is that one.
+  bool isAt(const std::string& step, const procedure::Procedure& version) const {
+    return isAt(step) && &stepper().procedure() == &version;
+  }
   /// The record that was gone on with; empty: a new one, or none.
   const std::string& resumed() const { return resumed_; }
   /// Whether the record has a still from before the current step.

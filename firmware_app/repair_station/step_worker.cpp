@@ -1,5 +1,6 @@
 #include "firmware_app/repair_station/step_worker.h"
 
+#include <exception>
 #include <utility>
 
 #include <pthread.h>
@@ -11,11 +12,22 @@ StepWorker::StepWorker(StepSession session)
       view_(session_.view()),
       thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
-void StepWorker::give(Job job) {
+void StepWorker::give(Job job, Failed failed) {
   ++open_;
   const std::scoped_lock lock(mutex_);
-  jobs_.push_back(std::move(job));
+  jobs_.push_back({.job = std::move(job), .failed = std::move(failed)});
   changed_.notify_all();
+}
+
+StepWorker::Result StepWorker::resultOf(const Given& given) {
+  try {
+    Then then = given.job(session_);
+    return {.view = session_.view(), .then = std::move(then)};
+  } catch (const std::exception& error) {
+    return {.view = {}, .then = [failed = given.failed, problem = std::string(error.what())] {
+              failed(problem);
+            }};
+  }
 }
 
 void StepWorker::work(const std::stop_token& stop) {
@@ -23,11 +35,10 @@ void StepWorker::work(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   // Also after a stop is requested: what is given is done.
   while (changed_.wait(lock, stop, [this] { return !jobs_.empty(); })) {
-    const Job job = std::move(jobs_.front());
+    const Given given = std::move(jobs_.front());
     jobs_.pop_front();
     lock.unlock();
-    Then then = job(session_);
-    Result result{.view = session_.view(), .then = std::move(then)};
+    Result result = resultOf(given);
     lock.lock();
     results_.push_back(std::move(result));
     changed_.notify_all();
@@ -42,19 +53,21 @@ bool StepWorker::poll() {
     results_.pop_front();
     lock.unlock();
     --open_;
-    view_ = std::move(result.view);
+    if (result.view) view_ = *std::move(result.view);
     if (result.then) result.then();
   }
 }
 
-void StepWorker::finish() {
+bool StepWorker::finish(hal::Duration patience) {
+  const auto deadline = std::chrono::steady_clock::now() + patience;
   while (open_ > 0) {
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [this] { return !results_.empty(); });
+      if (!changed_.wait_until(lock, deadline, [this] { return !results_.empty(); })) return false;
     }
     poll();
   }
+  return true;
 }
 
 }  // namespace pleinair::app

@@ -42,6 +42,7 @@ struct ProcedureReading {
   std::vector<config::ConfigError> faults;
 };
 
+// clang-format off
 /// Reads a procedure. All that its TOML may hold (docs/repair-station.md):
 ///
 ///     name = "change-bearing"
@@ -50,9 +51,11 @@ struct ProcedureReading {
 ///     [model]
 ///     source = "machine.glb"         # or a built-in model, with its keys as in a scene file
 ///     units = "mm"                   # of a file that is not in metres; STL and OBJ need it
-///     up = "z"                       # of a file whose up is another than usual: glTF and OBJ y,
-///     STL z [tools] hex_5 = { en = "5 mm hex key", de = "Innensechskant 5 mm" } [warnings] hot_oil
-///     = { level = "caution", en = "Hot oil", de = "Heißes Öl" }
+///     up = "z"                       # where it is not as usual: glTF and OBJ y, STL z
+///     [tools]
+///     hex_5 = { en = "5 mm hex key", de = "Innensechskant 5 mm" }
+///     [warnings]
+///     hot_oil = { level = "caution", en = "Hot oil", de = "Heißes Öl" }
 ///     [[step]]
 ///     id = "drain"
 ///     parts = ["oil_plug"]           # in focus: nodes of the model; "bolt_*" is all that begin so
@@ -70,6 +73,7 @@ struct ProcedureReading {
 /// Never throws for mistakes: all are listed, in the order of the files.
 ProcedureReading readProcedure(std::string_view toml, const std::string& name,
                                ProcedureSources& sources);
+// clang-format on
 
 /// Reads the procedure of a folder, with its files and hash. Mistakes are listed; a folder without
 /// procedure.toml is one.

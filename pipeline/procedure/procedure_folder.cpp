@@ -79,7 +79,13 @@ class ProcedureFolder : public ProcedureSources {
   hal::Result<std::shared_ptr<const scene::Model>> model(
       const scene::ModelSource& source) override {
     if (const auto* file = std::get_if<scene::FileSource>(&source)) {
-      if (!isInside(fs::relative(file->path, folder_))) {
+      std::error_code failure;
+      const fs::path within = fs::relative(file->path, folder_, failure);
+      if (failure) {
+        return tl::unexpected(hal::errnoError(file->path.string(), "cannot open", failure.value(),
+                                              "a model in the folder"));
+      }
+      if (!isInside(within)) {
         return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kInvalidInput,
                                          .subject = file->path.string(),
                                          .problem = "is not in the procedure's folder",
@@ -150,9 +156,9 @@ ProcedureReading readProcedureFolder(const fs::path& folder) {
   std::vector<std::string>& files = reading.procedure.files;
   files.emplace_back(kProcedureFile);
   if (const auto* model = std::get_if<scene::FileSource>(&reading.procedure.source)) {
-    files.push_back(fs::relative(model->path, folder).string());
-    const auto beside = scene::filesBeside(model->path);  // a mistake in the model is told already
-    std::error_code failure;
+    std::error_code failure;  // a mistake in the model is told already
+    files.push_back(fs::relative(model->path, folder, failure).string());
+    const auto beside = scene::filesBeside(model->path);
     const fs::path root = fs::canonical(folder, failure);
     for (const fs::path& each : beside.value_or(std::vector<fs::path>())) {
       files.push_back(fs::canonical(each, failure).lexically_relative(root).string());

@@ -339,5 +339,35 @@ TEST_F(RepairStation, AProcedureIsCarriedOutSignedOffCheckedAndExported) {
   EXPECT_THAT(found.error, testing::ContainsRegex(R"(\.jsonl:[0-9]+: )"));
 }
 
+TEST_F(RepairStation, StepsWhileTheCameraIsAwaited) {
+  writeProcedure();
+  fs::create_directory(path("records"));
+  const std::string token = "0123456789abcdef0123456789abcdef";
+  write("token", token + "\n");
+  chmod(path("token").c_str(), 0600);
+  const std::string address = freeAddress();
+  ProgramLimits limits;
+  limits.meanwhile = [&](pid_t program) {
+    const Operator jo(address, token);
+    EXPECT_TRUE(jo.awaits("procedure_step", "open"));
+    for (const auto& [command, step] : {std::pair("next", "look"), {"yes", "gap"}}) {
+      EXPECT_THAT(jo.say(command), HasSubstr("202"));
+      EXPECT_TRUE(jo.awaits("procedure_step", step)) << command << ": " << jo.status().dump();
+    }
+    kill(program, SIGTERM);
+  };
+  for (const char* variable : {"SDL_VIDEODRIVER", "WAYLAND_DISPLAY", "DISPLAY"}) {
+    limits.environment.emplace_back(variable);
+  }
+  const ProgramRun live =
+      runProgram({"run", "--camera", "v4l2:/dev/video987", "--set", "camera.wait=true", "--output",
+                  path("out.mp4"), "--style", "none", "--procedure", path("work"), "--set",
+                  "procedure.records=" + path("records"), "--set", "status.listen=" + address,
+                  "--set", "status.token_file=" + path("token")},
+                 limits);
+  EXPECT_EQ(live.status, 0) << live.error;
+  EXPECT_THAT(live.error, HasSubstr("step gap: "));
+}
+
 }  // namespace
 }  // namespace pleinair::support

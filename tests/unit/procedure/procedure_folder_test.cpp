@@ -125,5 +125,12 @@ TEST_F(ProcedureFolderTest, AModelOutsideOfTheFolderIsRefused) {
               HasSubstr("is not in the procedure's folder"));
 }
 
+TEST_F(ProcedureFolderTest, AModelThatCannotBeReachedIsAMistake) {
+  std::filesystem::create_symlink("m.glb", path("m.glb"));  // leads to itself
+  writeProcedureOf("source = \"m.glb\"");
+  EXPECT_THAT(messagesOf(readProcedureFolder(folder_.path())),
+              HasSubstr("Too many levels of symbolic links"));
+}
+
 }  // namespace
 }  // namespace pleinair::procedure

@@ -2,14 +2,15 @@
 // takes beside that, the disk's cache, is power_cut_test.cpp's.)
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <random>
+#include <thread>
 #include <vector>
 
 #include <fcntl.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "tests/unit/record/session_fixture.h"
@@ -17,8 +18,8 @@
 namespace pleinair::record {
 namespace {
 
-/// How long a line takes on this disk decides when to kill.
-constexpr std::chrono::milliseconds kLatestKill{60};
+/// It is killed after so many lines, however long they take on this disk.
+constexpr int kMostLines = 12;
 
 class KilledTest : public SessionFixture {
  protected:
@@ -36,8 +37,9 @@ class KilledTest : public SessionFixture {
     }
   }
 
-  /// Lets a program work for that long, and kills it; the number of lines that it acknowledged.
-  std::size_t killAfter(std::chrono::microseconds time) {
+  /// Lets a program write `lines` lines, and go on for the `share` of the time that one took; then
+  /// kills it. Returns the number of lines that it acknowledged.
+  std::size_t killAfter(int lines, double share) {
     std::array<int, 2> pipe{};
     if (pipe2(pipe.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
     const pid_t program = fork();
@@ -45,8 +47,11 @@ class KilledTest : public SessionFixture {
     close(pipe[1]);
     // From its first line on: a start takes longer than any of them.
     std::size_t acknowledged = readSome(pipe[0], 1);
-    const timespec wait{.tv_sec = 0, .tv_nsec = 1000 * time.count()};
-    nanosleep(&wait, nullptr);
+    const auto began = std::chrono::steady_clock::now();
+    acknowledged += readSome(pipe[0], static_cast<std::size_t>(lines) - 1);
+    const std::chrono::duration<double> each =
+        (std::chrono::steady_clock::now() - began) / (lines - 1);
+    std::this_thread::sleep_for(share * each);
     kill(program, SIGKILL);
     int status = 0;
     waitpid(program, &status, 0);
@@ -70,14 +75,15 @@ class KilledTest : public SessionFixture {
 
 TEST_F(KilledTest, FiftyKillsLoseNoCompletedStep) {
   std::mt19937 random(72);
-  std::uniform_int_distribution<int> moment(0, std::chrono::microseconds(kLatestKill).count());
-  std::size_t lines = 0;
+  std::uniform_int_distribution<int> lines(2, kMostLines);
+  std::uniform_real_distribution<double> share(0, 2);
   for (int i = 0; i < 50; ++i) {
     SCOPED_TRACE(i);
     std::filesystem::remove(path());
     std::filesystem::remove_all(folder_.path() / "work.stills");
-    const std::size_t acknowledged = killAfter(std::chrono::microseconds(moment(random)));
-    lines += acknowledged;
+    const int atLeast = lines(random);
+    const std::size_t acknowledged = killAfter(atLeast, share(random));
+    EXPECT_GE(acknowledged, static_cast<std::size_t>(atLeast)) << "it was not at work";
     now_ += std::chrono::hours(1);  // the other process had a clock of its own
     auto session = resume();
     ASSERT_TRUE(session) << session.error().message();
@@ -91,7 +97,6 @@ TEST_F(KilledTest, FiftyKillsLoseNoCompletedStep) {
     ASSERT_TRUE(session->signOff());
     EXPECT_TRUE(checkRecordFile(path())->findings.empty());
   }
-  EXPECT_GT(lines, 100U) << "they were at work when they were killed";
 }
 
 }  // namespace

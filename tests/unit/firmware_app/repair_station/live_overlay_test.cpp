@@ -1,5 +1,6 @@
 #include "firmware_app/repair_station/live_overlay.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <thread>
 
@@ -31,6 +32,14 @@ class LiveOverlayTest : public testing::Test {
     }
   }
 
+  static bool isSame(const hal::Image& a, const hal::Image& b) {
+    if (a.size() != b.size()) return false;
+    for (int y = 0; y < a.size().height; ++y) {
+      if (!std::ranges::equal(a.view().row(0, y), b.view().row(0, y))) return false;
+    }
+    return true;
+  }
+
   std::shared_ptr<const procedure::Procedure> procedure_ =
       std::make_shared<const procedure::Procedure>(procedure::loadProcedure(kGearbox));
   hal::TimePoint now_{std::chrono::seconds(10)};
@@ -60,13 +69,48 @@ TEST_F(LiveOverlayTest, OfStepsThatChangeFasterTheNewestIsShownInTheEnd) {
 }
 
 TEST_F(LiveOverlayTest, AnotherTextKeepsTheInset) {
-  ASSERT_NE(overlay_.update(step(0), now_), nullptr);
-  overlay_.notify("the disk is full", now_);
-  const auto noted = made(step(0));
-  const auto typed = made(step(0, "Gap: 1_"));
-  EXPECT_EQ(noted->inset.size(), typed->inset.size());
+  const auto loaded = procedure_;  // its model is the overlay's machine
+  const auto changing = std::make_shared<procedure::Procedure>(*loaded);
+  procedure_ = changing;
+  const auto first = overlay_.update(step(0), now_);
+  ASSERT_NE(first, nullptr);
+  // From here on, an inset that is drawn anew shows another machine.
+  auto flat = std::make_shared<scene::Model>(*loaded->model);
+  for (scene::ModelPart& each : flat->parts) {
+    glm::dmat4 flattened(1.0);
+    flattened[2][2] = 0.3;
+    each.modelFromPart = flattened * each.modelFromPart;
+  }
+  changing->model = flat;
+  overlay_.notify("two inputs at once", now_);
+  EXPECT_TRUE(isSame(made(step(0))->inset, first->inset));
+  EXPECT_TRUE(isSame(made(step(0, "Gap: 1_"))->inset, first->inset));
+  const auto anew = LiveOverlay(flat.get(), kGearbox, {320, 240}, false, {}).update(step(0), now_);
+  EXPECT_FALSE(isSame(anew->inset, first->inset));
   now_ += std::chrono::seconds(6);
   EXPECT_NE(made(step(0, "Gap: 1_")), nullptr) << "the notice is gone";
+}
+
+TEST_F(LiveOverlayTest, ALaterNoticeHidesNoFailure) {
+  LiveOverlay overlay(procedure_->model.get(), kGearbox, {1280, 720}, false, {});
+  const auto heightOf = [&] {
+    for (;;) {
+      if (const auto content = overlay.update(step(procedure::kEnd), now_))
+        return content->panel.size().height;
+      std::this_thread::yield();
+    }
+  };
+  const int plain = heightOf();
+  overlay.notifyFailure("the disk is full", now_);
+  const int failed = heightOf();
+  EXPECT_GT(failed, plain);
+  overlay.notify("two inputs at once", now_);
+  const int both = heightOf();
+  EXPECT_GT(both, failed);
+  overlay.notify("one moment", now_ + std::chrono::seconds(4));
+  EXPECT_EQ(heightOf(), both) << "in place of the notice, not of the failure";
+  now_ += std::chrono::seconds(6);
+  EXPECT_EQ(heightOf(), failed) << "the failure had its time";
 }
 
 }  // namespace

@@ -1,16 +1,12 @@
-#include "firmware_app/repair_station/live_procedure.h"
-
 #include <algorithm>
-#include <fstream>
 #include <functional>
-#include <iterator>
 
 #include <gmock/gmock.h>
 
 #include "config/config_error.h"
 #include "pipeline/record/record_check.h"
 #include "tests/support/file_size_limit.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/unit/firmware_app/repair_station/live_procedure_fixture.h"
 
 namespace pleinair::app {
 namespace {
@@ -18,67 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using testing::HasSubstr;
-
-void write(const fs::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
-std::string textOf(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-class LiveProcedureTest : public testing::Test {
- protected:
-  void SetUp() override {
-    fs::create_directories(procedure());
-    fs::create_directories(records());
-    writeSteps("max = 2");
-    write(procedure() / "en.md",
-          "# Service\n## open: Open it\nLift the *cover*.\n## look: Look\n? Is it clean?\n"
-          "## gap: Measure\n? Gap\n## shoot: Photograph\n");
-  }
-
-  void writeSteps(const std::string& limit) const {
-    write(procedure() / "procedure.toml",
-          "name = \"service\"\nversion = \"1\"\nlanguages = [\"en\"]\n"
-          "step = [\n{ id = \"open\", removes = [\"oil_plug\"], torque = \"5 Nm\" },\n"
-          "{ id = \"look\", check = \"yes_no\" },\n"
-          "{ id = \"gap\", check = { kind = \"value\", unit = \"mm\", " +
-              limit + " } },\n{ id = \"shoot\", check = \"photo\" }]\n" +
-              "[model]\nsource = \"builtin:gearbox\"\n");
-  }
-
-  LiveProcedure begin(bool isRecorded = true) {
-    return LiveProcedure({.folder = procedure(),
-                          .records = isRecorded ? records() : fs::path(),
-                          .operatorName = "Jo",
-                          .program = "1"},
-                         clock_);
-  }
-
-  /// Presses keys with spaces between them.
-  static void press(LiveProcedure& procedure, const std::string& keys) {
-    std::size_t at = 0;
-    while (at < keys.size()) {
-      const std::size_t end = std::min(keys.find(' ', at), keys.size());
-      EXPECT_TRUE(procedure.press({.name = keys.substr(at, end - at)}))
-          << keys.substr(at, end - at);
-      procedure.finish();
-      at = end + 1;
-    }
-  }
-
-  static hal::Image picture() {
-    return hal::Image({.pixelFormat = hal::PixelFormat::kRgb8, .size = {8, 8}});
-  }
-
-  fs::path procedure() const { return folder_.path() / "service"; }
-  fs::path records() const { return folder_.path() / "records"; }
-
-  support::TemporaryFolder folder_;
-  hal::SteppedClock clock_;
-};
 
 TEST_F(LiveProcedureTest, KeysStepThroughItToTheSignOff) {
   LiveProcedure live = begin();
@@ -156,13 +91,11 @@ TEST_F(LiveProcedureTest, IsReadAgainWhenItIsSaved) {
   LiveProcedure live = begin(false);
   press(live, "pagedown");
   const auto save = [&](const std::string& limit) {
-    writeSteps(limit);
-    fs::last_write_time(procedure() / "procedure.toml",
-                        fs::file_time_type::clock::now() + std::chrono::seconds(limit.size()));
-    clock_.advance(std::chrono::seconds(1));
+    edit(limit);
     live.poll();
     live.finish();
-    return live.takeNotice().value_or("");
+    const auto failure = live.takeFailure();
+    return failure ? *failure : live.takeNotice().value_or("");
   };
   EXPECT_EQ(save("max = 3"), "the procedure was read again");
   EXPECT_EQ(live.status().step, "look");
@@ -206,7 +139,7 @@ TEST_F(LiveProcedureTest, ACameraThatGivesNoPictureKeepsTheStep) {
   EXPECT_TRUE(live.takeStillRequest());
   clock_.advance(std::chrono::seconds(3));
   live.poll();
-  EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("gives no picture"));
+  EXPECT_THAT(live.takeFailure().value_or(""), HasSubstr("gives no picture"));
   EXPECT_EQ(live.status().step, "shoot");
   live.putStill(picture());  // late
   live.finish();
@@ -266,7 +199,7 @@ TEST_F(LiveProcedureTest, ADiskThatIsFullAtAStillKeepsTheStepUntilThereIsSpace) 
     }
     live.putStill(noise);
     live.finish();
-    EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("too large"));
+    EXPECT_THAT(live.takeFailure().value_or(""), HasSubstr("too large"));
     EXPECT_EQ(live.status().step, "shoot");
   }
   EXPECT_EQ(record::checkRecordFile(live.status().record)->entries.size(), lines);
@@ -300,16 +233,6 @@ TEST_F(LiveProcedureTest, OperatorsWhoTakeOverAreInTheRecord) {
     }
   }
   EXPECT_THAT(names, testing::ElementsAre("Kim", "Li"));
-}
-
-TEST_F(LiveProcedureTest, AStepIsLeftOnceItsLineIsOnTheDisk) {
-  LiveProcedure live = begin();
-  EXPECT_TRUE(live.press({.name = "pagedown"}));
-  EXPECT_EQ(live.status().step, "open") << "until it is on the disk, and poll() has seen that";
-  EXPECT_TRUE(live.press({.name = "pagedown"}));
-  EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("being written"));
-  live.finish();
-  EXPECT_EQ(live.status().step, "look") << "the second press did not count";
 }
 
 TEST_F(LiveProcedureTest, LinesAreInTheOrderInWhichTheyWereGiven) {

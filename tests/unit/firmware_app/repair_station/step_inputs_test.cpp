@@ -156,6 +156,16 @@ TEST_F(StepInputsTest, CommandsFromElsewhereAreObeyedAndBounded) {
   EXPECT_FALSE(inputs_->poll().togglesRaw) << "an even number of times";
 }
 
+TEST_F(StepInputsTest, CommandsThatAreSentTogetherAreObeyedOneAfterTheOther) {
+  ASSERT_TRUE(queue_.put(of(StepCommandKind::kNext)));
+  ASSERT_TRUE(queue_.put(of(StepCommandKind::kYes)));
+  ASSERT_TRUE(queue_.put({.kind = StepCommandKind::kValue, .value = 1.5, .operatorName = {}}));
+  for (const char* next : {"b", "c", "d"}) {
+    inputs_->poll();
+    EXPECT_EQ(step(), next);
+  }
+}
+
 TEST_F(StepInputsTest, RawIsThePaintingsAndEndsNoStep) {
   EXPECT_TRUE(press(gamepad_, BTN_NORTH).togglesRaw);
   EXPECT_EQ(step(), "a");
