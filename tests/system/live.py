@@ -7,6 +7,7 @@ import frames
 
 CAMERA = "/dev/video0"
 LOOPBACK = "/dev/video50"
+VIVID = "/sys/devices/platform/vivid.0/video4linux"
 CAMERA_SIZE = (320, 180)  # the smallest of vivid's as a webcam
 SIZE = (160, 90)  # of the painting
 STATUS = "127.0.0.1:9117"
@@ -32,9 +33,9 @@ def set_camera(guest, fourcc, size=CAMERA_SIZE):
 
 
 def control(guest, **values):
-    """Sets vivid's controls."""
+    """Sets vivid's controls. One that is plugged in while frames of the one before are held has another node."""
     listing = ",".join(f"{name}={value}" for name, value in values.items())
-    guest.run(f"v4l2-ctl -d {CAMERA} --set-ctrl {listing}")
+    guest.run(f"v4l2-ctl -d /dev/$(ls {VIVID} | head -n1) --set-ctrl {listing}")
 
 
 def unplug(guest):
