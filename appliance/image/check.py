@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Boots a copy of a machine image in QEMU, by UEFI and GRUB and with its own command line, to which only software GL and the
-kernel's virtual camera are added, and judges the screen. Until it goes black for the first time it is the firmware's and GRUB's;
+kernel's virtual camera are added, and judges the screen. Until it goes black after its first text it is the firmware's and GRUB's;
 from then on it may show pictures and black, and no text. A waiting picture comes, and then a painting that moves.
 
     check.py DISK.img OUTPUT_FOLDER [MINUTES]
@@ -48,7 +48,7 @@ def add_words(disk, folder):
     with open(boot) as file:
         text = file.read()
     with open(boot, "w") as file:
-        file.write(text.replace(" && initrd", f" {WORDS} && initrd"))
+        file.write(text.replace("; then if initrd", f" {WORDS}; then if initrd"))
     subprocess.run(["mcopy", "-o", "-i", place, boot, "::boot.cfg"], check=True)
 
 
@@ -147,12 +147,13 @@ def main():
     copy = os.path.join(folder, "disk.img")
     subprocess.run(["cp", "--sparse=always", disk, copy], check=True)
     add_words(copy, folder)
-    is_started = False
+    is_started = has_said = False
     waiting, paintings, texts = None, [], []
     with Machine(copy, folder) as machine:
         for at, screen in watch(machine, folder, 60 * minutes):
             kind = screen.kind()
-            is_started = is_started or kind == "black"
+            is_started = is_started or (kind == "black" and has_said)
+            has_said = has_said or kind == "text"
             if kind == "text" and is_started:
                 texts.append(f"{at:.1f}")
             if kind != "picture" or not is_started:
