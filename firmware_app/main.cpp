@@ -2,7 +2,7 @@
 #include "pipeline/gpu/import_trial.h"
 
 int main(int argc, char** argv) {
-  // What this program starts itself as, since a driver might crash there.
+  // The program starts itself anew for this trial, in which a driver may crash.
   if (const auto status = pleinair::gpu::runImportTrial(argc, argv)) return *status;
   return pleinair::app::runCommandLine(argc, argv);
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Boots a copy of a machine image in QEMU, by UEFI and GRUB and with its own command line, to which only software GL and the
-kernel's virtual camera are added, and judges the screen. Until it goes black after its first text it is the firmware's and GRUB's;
-from then on it may show pictures and black, and no text. A waiting picture comes, and then a painting that moves.
+kernel's virtual camera are added, and judges the screen. In its first seconds it is the firmware's and GRUB's; from then on it
+may change to pictures and black, and to no text. A waiting picture comes, and then a painting that moves.
 
     check.py DISK.img OUTPUT_FOLDER [MINUTES]
 
@@ -20,6 +20,7 @@ import time
 LEAST_COLOURS = 200  # of a picture on paper; text on black has few
 OTHER_PICTURE = 0.4  # of the bytes: a painting in place of the waiting picture
 MOVED = 0.002
+FIRMWARE_SECONDS = 20  # under emulation: 7 on an idle machine, and the kernel needs longer than the rest
 FIRMWARE = "/usr/share/OVMF/OVMF_CODE_4M.fd"
 WORDS = "pleinair.software_gl modules_load=vivid"
 
@@ -147,13 +148,11 @@ def main():
     copy = os.path.join(folder, "disk.img")
     subprocess.run(["cp", "--sparse=always", disk, copy], check=True)
     add_words(copy, folder)
-    is_started = has_said = False
     waiting, paintings, texts = None, [], []
     with Machine(copy, folder) as machine:
         for at, screen in watch(machine, folder, 60 * minutes):
             kind = screen.kind()
-            is_started = is_started or (kind == "black" and has_said)
-            has_said = has_said or kind == "text"
+            is_started = waiting is not None or at > FIRMWARE_SECONDS
             if kind == "text" and is_started:
                 texts.append(f"{at:.1f}")
             if kind != "picture" or not is_started:

@@ -477,8 +477,8 @@ class LivePainting {
     } while (saveSnapshot());
   }
 
-  /// What was answered last is on the disk before the program ends. Idempotent. Does not return if
-  /// the record's thread hangs.
+  /// The last answers are on the disk before the program ends. Idempotent. Does not return if the
+  /// record's thread hangs.
   void finishProcedure() {
     if (awaitRecord() != RecordEnd::kWritten) exitWithStuckThreads({});
   }
@@ -518,6 +518,12 @@ class LivePainting {
     const runtime::RuntimeStatus status = pipeline_.status();
     reporter_.update(status, now);
     writeFrameLog();
+    if (runtime::takeDemotion()) {
+      notify(
+          "a camera's or a display's thread was too slow for its real-time priority, and goes on "
+          "without",
+          false);
+    }
     input_.noteOutputs(status.outputs);
     // If the first frames cannot be painted, no later one can.
     const bool isHopeless = status.painting.painted == 0 && status.painting.failures > 0;

@@ -64,7 +64,7 @@ void putMachine(scene::Scene& scene, std::size_t machine, const procedure::Proce
                                 place.unitMetres, procedure.unitMetres),
          .remedy = "the same units in both"});
   }
-  // What a file calls up, the scene has said of its own; a built-in one stands upright.
+  // The scene has said which way is up in a file that it places; a built-in model stands upright.
   if (!std::holds_alternative<scene::FileSource>(place.source)) {
     place.attachFromModel = place.attachFromModel * glm::dmat4(procedure.uprightFromModel);
   }

@@ -58,7 +58,7 @@ std::shared_ptr<const overlay::OverlayContent> LiveOverlay::update(StepShown sho
   if (making_.valid() && making_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
     made = content_ = making_.get();
   }
-  // What has changed meanwhile is made next: the newest state, not those in between.
+  // A change that comes meanwhile waits: the newest state is made next, not those in between.
   if (making_.valid() || (last_ && isSame(*last_, shown))) return made;
   const bool keepsInset = last_ && content_ && isSameStep(*last_, shown);
   last_ = std::move(shown);

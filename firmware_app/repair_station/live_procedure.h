@@ -72,11 +72,11 @@ class LiveProcedure {
   std::string text() const;
   /// What the current step shows.
   StepShown shown() const;
-  /// What has happened, for the caption and the log, a text each call, in order: a check that
-  /// failed, an input that did not count. In the procedure's language, but for what the system
-  /// says.
+  /// The next event for the caption and the log, in order: a check that failed, an input that did
+  /// not count. In the procedure's language, but for errors of the system.
   std::optional<std::string> takeNotice();
-  /// The same of what is not done or not recorded: a full disk, a mistake in an edited procedure.
+  /// The next failure, likewise: a step that a full disk kept from being done, a mistake in an
+  /// edited procedure.
   std::optional<std::string> takeFailure();
   /// The language in force.
   const std::string& language() const { return options_.language; }

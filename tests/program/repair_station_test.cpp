@@ -92,6 +92,14 @@ class RepairStation : public testing::Test {
           "## shut: Shut it\n");
   }
 
+  /// Writes the token of whoever may give commands to "token", readable by its owner alone.
+  std::string giveToken() const {
+    std::string token = "0123456789abcdef0123456789abcdef";
+    write("token", token + "\n");
+    chmod(path("token").c_str(), 0600);
+    return token;
+  }
+
   TemporaryFolder folder_;
 };
 
@@ -277,9 +285,7 @@ TEST_F(RepairStation, AProcedureIsCarriedOutSignedOffCheckedAndExported) {
   recordBench("still", 10);
   writeProcedure();
   fs::create_directory(path("records"));
-  const std::string token = "0123456789abcdef0123456789abcdef";
-  write("token", token + "\n");
-  chmod(path("token").c_str(), 0600);
+  const std::string token = giveToken();
   const std::string address = freeAddress();
   std::string record;
   ProgramLimits limits;
@@ -342,9 +348,7 @@ TEST_F(RepairStation, AProcedureIsCarriedOutSignedOffCheckedAndExported) {
 TEST_F(RepairStation, StepsWhileTheCameraIsAwaited) {
   writeProcedure();
   fs::create_directory(path("records"));
-  const std::string token = "0123456789abcdef0123456789abcdef";
-  write("token", token + "\n");
-  chmod(path("token").c_str(), 0600);
+  const std::string token = giveToken();
   const std::string address = freeAddress();
   ProgramLimits limits;
   limits.meanwhile = [&](pid_t program) {
