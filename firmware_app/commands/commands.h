@@ -74,6 +74,7 @@ struct MeasureOptions {
   bool gates = false;
   std::optional<std::filesystem::path> json;
   std::optional<std::filesystem::path> html;
+  std::filesystem::path shaderDirectory;  ///< overrides embedded shaders; empty: none
 };
 
 /// Paints a sequence of known motion and prints how coherent the painting is: `pleinair measure`.

@@ -239,6 +239,7 @@ int measureConfigured(const MeasureOptions& options, const Configuration& config
                    .scene = composer ? scene::Scene{} : scene,
                    .style = painting.style,
                    .tracksTags = !composer && !scene.tags.empty(),
+                   .shaderDirectory = options.shaderDirectory,
                    .expectedFormat = input->format(),
                    .qualityLevels = quality != 0,
                    .readsSurfaces = !composer && hasModels(scene)});

@@ -135,6 +135,10 @@ void addMeasure(CLI::App& app, MeasureOptions& options, std::function<int()>& ch
       "WxH");
   addKey(command, options.configuration, "--quality", "runtime.quality",
          "the quality level to paint at (default: the best)", "NAME");
+  command
+      .add_option("--shaders", options.shaderDirectory,
+                  "a copy of the source tree whose shaders replace the built-in ones")
+      ->type_name("DIR");
   refuseEmptyValues(command);
   command.callback([&] { chosen = [&options] { return runMeasure(options); }; });
 }

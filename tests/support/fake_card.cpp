@@ -8,10 +8,10 @@
 #include <cstring>
 #include <utility>
 
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include "hal/surface.h"
+#include "tests/support/fake_framebuffers.h"
 
 namespace pleinair::support {
 
@@ -32,7 +32,6 @@ constexpr ObjectId kFirstCrtc = 100;
 constexpr ObjectId kFirstConnector = 200;
 constexpr ObjectId kFirstPlane = 300;
 constexpr ObjectId kConsole = 900;  ///< the console's framebuffer
-constexpr std::size_t kPixelBytes = 4;
 
 /// Property ids are those of a kernel: one for each name, whatever the object.
 constexpr std::array<std::string_view, 15> kNames{
@@ -75,12 +74,6 @@ struct Crtc {
   Offset offset;     ///< of the framebuffer
 };
 
-struct Framebuffer {
-  ScanOutBuffer buffer;
-  hal::FrameSize size;
-  bool isGpu = false;
-};
-
 }  // namespace
 
 class FakeCard final : public Card {
@@ -89,6 +82,7 @@ class FakeCard final : public Card {
       : cards_(cards),
         spec_(spec),
         crtcs_(static_cast<std::size_t>(spec.crtcs)),
+        framebuffers_(spec.rowPadding, spec.memoryBytes, spec.exportsDmaBufs),
         isMaster_(!spec.hasOtherMaster) {
     ++cards_.openCards;
     if (spec.hasConsole) {
@@ -97,12 +91,13 @@ class FakeCard final : public Card {
                         .framebuffer = kConsole,
                         .connector = kFirstConnector};
     }
-    spec_.firstPixel = [this] { return firstPixelOf(crtcs_.front().framebuffer); };
-    spec_.pixel = [this](int x, int y) { return pixelOf(crtcs_.front().framebuffer, x, y); };
+    spec_.pixel = [this](int x, int y) {
+      return framebuffers_.pixel(crtcs_.front().framebuffer, x, y);
+    };
+    spec_.firstPixel = [this] { return spec_.pixel(0, 0); };
     look();
   }
   ~FakeCard() override {
-    assert(framebuffers_.empty() && "a buffer was left behind");
     spec_.firstPixel = nullptr;
     spec_.pixel = nullptr;
     --cards_.openCards;
@@ -220,34 +215,12 @@ class FakeCard final : public Card {
 
   int createBuffer(hal::FrameSize size, ScanOutBuffer& buffer) override {
     if (spec_.isGone) return -ENODEV;
-    const std::size_t stride =
-        static_cast<std::size_t>(size.width) * kPixelBytes + spec_.rowPadding;
-    const std::size_t bytes = stride * static_cast<std::size_t>(size.height);
-    if (usedBytes_ + bytes > spec_.memoryBytes) return -ENOMEM;
-    const int file = ::memfd_create("scan-out", MFD_CLOEXEC);
-    if (file < 0 || ::ftruncate(file, static_cast<off_t>(bytes)) != 0) return -ENOMEM;
-    void* memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-    assert(memory != MAP_FAILED);
-    buffer = {.framebuffer = ++lastId_,
-              .handle = ++lastId_,
-              .dmaBuf = spec_.exportsDmaBufs ? file : -1,
-              .memory = {static_cast<std::uint8_t*>(memory), bytes},
-              .strideBytes = stride};
-    if (!spec_.exportsDmaBufs) ::close(file);
-    framebuffers_[buffer.framebuffer] = {buffer, size};
-    usedBytes_ += bytes;
+    if (const int failed = create(size, false, buffer); failed != 0) return failed;
     ++cards_.buffers;
     return 0;
   }
   void destroyBuffer(const ScanOutBuffer& buffer) override {
-    assert(framebuffers_.contains(buffer.framebuffer));
-    framebuffers_.erase(buffer.framebuffer);
-    for (Crtc& each : crtcs_) {
-      if (each.pending == buffer.framebuffer) each.pending = 0;
-    }
-    usedBytes_ -= buffer.memory.size();
-    ::munmap(buffer.memory.data(), buffer.memory.size());
-    if (buffer.dmaBuf >= 0) ::close(buffer.dmaBuf);
+    destroy(buffer.framebuffer);
     --cards_.buffers;
   }
 
@@ -258,31 +231,23 @@ class FakeCard final : public Card {
     const auto chosen = std::ranges::find_first_of(spec_.gpuModifiers, modifiers);
     if (chosen == spec_.gpuModifiers.end()) return -EINVAL;
     ScanOutBuffer memory;
-    if (const int failed = createBuffer(size, memory); failed != 0) return failed;
-    framebuffers_.at(memory.framebuffer).isGpu = true;
+    if (spec_.isGone) return -ENODEV;
+    if (const int failed = create(size, true, memory); failed != 0) return failed;
     buffer = {.framebuffer = memory.framebuffer, .modifier = *chosen, .allocation = this};
     buffer.planes[0] = {
         .dmaBuf = memory.dmaBuf, .offsetBytes = 0, .strideBytes = memory.strideBytes};
-    --cards_.buffers;
     ++cards_.gpuBuffers;
     return 0;
   }
   void destroyGpuBuffer(const GpuBuffer& buffer) override {
-    const ScanOutBuffer memory = framebuffers_.at(buffer.framebuffer).buffer;
-    destroyBuffer(memory);
-    ++cards_.buffers;
+    destroy(buffer.framebuffer);
     --cards_.gpuBuffers;
   }
   int readGpuBuffer(const GpuBuffer& buffer, hal::FrameSize size,
                     std::span<std::uint8_t> pixels) override {
     if (spec_.isGone) return -ENODEV;
-    const ScanOutBuffer& memory = framebuffers_.at(buffer.framebuffer).buffer;
-    const std::size_t rowBytes = static_cast<std::size_t>(size.width) * kPixelBytes;
-    for (std::size_t y = 0; y < static_cast<std::size_t>(size.height); ++y) {
-      std::memcpy(pixels.data() + y * rowBytes, memory.memory.data() + y * memory.strideBytes,
-                  rowBytes);
-    }
-    if (spec_.garblesGpuBuffers) pixels[rowBytes / 2] ^= 0x40U;
+    framebuffers_.read(buffer.framebuffer, size, pixels);
+    if (spec_.garblesGpuBuffers) pixels[2 * static_cast<std::size_t>(size.width)] ^= 0x40U;
     return 0;
   }
 
@@ -306,6 +271,18 @@ class FakeCard final : public Card {
   }
 
  private:
+  int create(hal::FrameSize size, bool isGpu, ScanOutBuffer& buffer) {
+    const int failed = framebuffers_.create(lastId_ + 1, size, isGpu, buffer);
+    if (failed == 0) lastId_ += 2;
+    return failed;
+  }
+  void destroy(ObjectId framebuffer) {
+    for (Crtc& each : crtcs_) {
+      if (each.pending == framebuffer) each.pending = 0;
+    }
+    framebuffers_.destroy(framebuffer);
+  }
+
   static std::vector<Property> properties(std::initializer_list<std::string_view> names) {
     std::vector<Property> properties;
     for (const std::string_view each : names) {
@@ -351,9 +328,9 @@ class FakeCard final : public Card {
 
   int testFlip(std::span<const Change> changes) {
     ++cards_.tests;
-    const auto framebuffer = framebuffers_.find(static_cast<ObjectId>(changes.front().value));
-    if (framebuffer == framebuffers_.end()) return -EINVAL;
-    return framebuffer->second.isGpu && spec_.refusesGpuTests ? -EINVAL : 0;
+    const auto id = static_cast<ObjectId>(changes.front().value);
+    if (!framebuffers_.has(id)) return -EINVAL;
+    return framebuffers_.at(id).isGpu && spec_.refusesGpuTests ? -EINVAL : 0;
   }
 
   int modeset(std::span<const Change> changes, bool applies) {
@@ -369,16 +346,16 @@ class FakeCard final : public Card {
     const ObjectId plane = planeOf(changes);
     const auto framebuffer = valueOf(changes, plane, "FB_ID");
     if (!framebuffer || valueOf(changes, plane, "CRTC_ID") != crtcId) return -EINVAL;
-    const auto buffer = framebuffers_.find(static_cast<ObjectId>(*framebuffer));
+    const auto id = static_cast<ObjectId>(*framebuffer);
     const FakeMode* mode = modeIn(connector->object, blobs_.at(static_cast<ObjectId>(*blob)));
-    if (buffer == framebuffers_.end() || mode == nullptr || mode->isRefused) return -EINVAL;
+    if (!framebuffers_.has(id) || mode == nullptr || mode->isRefused) return -EINVAL;
     // The picture fills the display, as most cards demand of a primary plane.
     const auto width = static_cast<std::uint64_t>(mode->size.width);
     const auto height = static_cast<std::uint64_t>(mode->size.height);
     const Offset offset{valueOf(changes, plane, "SRC_X").value_or(0),
                         valueOf(changes, plane, "SRC_Y").value_or(0)};
-    if (!isWithin(offset, *mode, buffer->second) || valueOf(changes, plane, "CRTC_W") != width ||
-        valueOf(changes, plane, "CRTC_H") != height ||
+    if (!isWithin(offset, *mode, framebuffers_.at(id)) ||
+        valueOf(changes, plane, "CRTC_W") != width || valueOf(changes, plane, "CRTC_H") != height ||
         valueOf(changes, plane, "SRC_W") != width << 16U ||
         valueOf(changes, plane, "SRC_H") != height << 16U) {
       return -EINVAL;
@@ -387,7 +364,7 @@ class FakeCard final : public Card {
     Crtc& crtc = crtcs_.at(crtcId - kFirstCrtc);
     crtc = {.isActive = true,
             .mode = *mode,
-            .framebuffer = buffer->first,
+            .framebuffer = id,
             .connector = connector->object,
             .offset = offset};
     look();
@@ -395,7 +372,8 @@ class FakeCard final : public Card {
   }
 
   /// Whether a framebuffer has all of what a display of this mode shows at this place of it.
-  static bool isWithin(const Offset& offset, const FakeMode& mode, const Framebuffer& buffer) {
+  static bool isWithin(const Offset& offset, const FakeMode& mode,
+                       const FakeFramebuffers::Framebuffer& buffer) {
     const std::uint64_t right = (offset.x >> 16U) + static_cast<std::uint64_t>(mode.size.width);
     const std::uint64_t bottom = (offset.y >> 16U) + static_cast<std::uint64_t>(mode.size.height);
     return right <= static_cast<std::uint64_t>(buffer.size.width) &&
@@ -422,7 +400,7 @@ class FakeCard final : public Card {
     if (plane == 0 || !framebuffer) return -EINVAL;
     Crtc& crtc = crtcs_.at((plane - kFirstPlane) / static_cast<ObjectId>(spec_.planesPerCrtc));
     const auto id = static_cast<ObjectId>(*framebuffer);
-    if (!crtc.isActive || !framebuffers_.contains(id)) return -EINVAL;
+    if (!crtc.isActive || !framebuffers_.has(id)) return -EINVAL;
     Offset offset = crtc.offset;
     const auto sourceX = valueOf(changes, plane, "SRC_X");
     const auto sourceY = valueOf(changes, plane, "SRC_Y");
@@ -481,29 +459,18 @@ class FakeCard final : public Card {
     cards_.shown.push_back({.crtc = crtcId,
                             .sequence = sequence,
                             .time = refresh,
-                            .firstPixel = firstPixelOf(crtc.framebuffer)});
-  }
-
-  std::uint32_t firstPixelOf(ObjectId framebuffer) const { return pixelOf(framebuffer, 0, 0); }
-  std::uint32_t pixelOf(ObjectId framebuffer, int x, int y) const {
-    const ScanOutBuffer& buffer = framebuffers_.at(framebuffer).buffer;
-    const std::size_t at = static_cast<std::size_t>(y) * buffer.strideBytes +
-                           static_cast<std::size_t>(x) * kPixelBytes;
-    std::uint32_t pixel = 0;
-    std::memcpy(&pixel, buffer.memory.data() + at, sizeof(pixel));
-    return pixel;
+                            .firstPixel = framebuffers_.pixel(crtc.framebuffer, 0, 0)});
   }
 
   FakeCards& cards_;
   FakeCardSpec& spec_;
   std::string driver_ = "fake";
   std::vector<Crtc> crtcs_;
-  std::map<ObjectId, Framebuffer> framebuffers_;
+  FakeFramebuffers framebuffers_;
   std::map<ObjectId, std::vector<std::uint8_t>> blobs_;
   std::vector<FlipEvent> events_;
   ObjectId lastId_ = 1000;
   bool isMaster_ = true;
-  std::size_t usedBytes_ = 0;
 };
 
 FakeCardSpec& FakeCards::add(FakeCardSpec spec) {

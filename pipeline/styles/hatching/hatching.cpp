@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
-
-#include <glm/trigonometric.hpp>
 
 #include "pipeline/gpu/per_size.h"
 #include "pipeline/gpu/program.h"
@@ -13,6 +10,7 @@
 #include "pipeline/marks/filtered_frame.h"
 #include "pipeline/marks/layer_textures.h"
 #include "pipeline/scene/render/model_hiding.h"
+#include "pipeline/styles/hatching/drawing_plan.h"
 #include "pipeline/styles/hatching/hatching_shaders.h"
 #include "pipeline/styles/strokes/brush_cache.h"
 #include "pipeline/styles/strokes/stroke_borders.h"
@@ -29,13 +27,7 @@ using gpu::TextureFilter;
 using gpu::TextureFormat;
 
 const std::string kShaders = "pipeline/styles/hatching/shaders/";
-/// Lengths are given for pictures of so many px (640x480).
-constexpr double kReferencePixels = 307200.0;
-/// In smaller images, lines would be thinner than a pixel.
-constexpr double kMinScale = 0.6;
 constexpr float kMinContourStep = 0.8F;  // px of the image
-constexpr std::size_t kMaxSets = 3;
-constexpr std::size_t kFieldLevel = 1;
 constexpr int kBrushTexelsAcross = 16;
 
 constexpr std::array kViews{
@@ -45,7 +37,7 @@ constexpr std::array kViews{
     DebugViewInfo{"edges", "differences across edges, from which contours are found"},
     DebugViewInfo{"contours", "contour lines alone"},
 };
-constexpr std::array<glm::vec3, kMaxSets> kSetColours{
+constexpr std::array<glm::vec3, kMaxHatchSets> kSetColours{
     {{0.1F, 0.3F, 0.8F}, {0.85F, 0.25F, 0.1F}, {0.1F, 0.6F, 0.25F}}};
 
 constexpr auto kMax = CoherenceGate::Side::kMax;
@@ -62,73 +54,6 @@ constexpr std::array kGates{
 /// All of them: lines leave most of the paper bare.
 constexpr std::array<std::string_view, 6> kPaperLooks{"pen",       "pencil", "engraving",
                                                       "blueprint", "chalk",  "crayon"};
-
-/// Where each set draws, in the tones that are not left bare: the more sets, the earlier the first
-/// has drawn all its lines.
-constexpr std::array<std::array<glm::vec2, kMaxSets>, kMaxSets> kBands{{
-    {{{0.0F, 1.0F}, {0.0F, 1.0F}, {0.0F, 1.0F}}},
-    {{{0.0F, 0.75F}, {0.4F, 1.0F}, {0.0F, 1.0F}}},
-    {{{0.0F, 0.65F}, {0.35F, 0.85F}, {0.6F, 1.0F}}},
-}};
-
-double scaleOf(hal::FrameSize full) {
-  return std::max(kMinScale, std::sqrt(static_cast<double>(full.pixels()) / kReferencePixels));
-}
-
-/// What a change of makes new lines.
-struct DrawingPlan {
-  std::size_t sets = 0;
-  HatchPlan lines;
-  bool operator==(const DrawingPlan&) const = default;
-};
-
-DrawingPlan planOf(const HatchingParameters& p, hal::FrameSize full) {
-  const double scale = scaleOf(full);
-  return {static_cast<std::size_t>(p.directions),
-          {.spacingPx = p.spacing * scale,
-           .lengthPx = p.length * scale,
-           .coverage = p.coverage,
-           .seed = static_cast<unsigned>(p.seed)}};
-}
-
-glm::vec3 inkOf(const HatchingParameters& p) {
-  return {p.inkRed, p.inkGreen, p.inkBlue};
-}
-
-/// The tensor (shaders/field.glsl) of lines at a slope on the paper, which has turned with the
-/// image.
-glm::vec2 slopeOf(const HatchingParameters& p, const scene::ArFrame& frame) {
-  const double line = -glm::radians(p.slopeDegrees) - frame.canvasFromPicture.angleRad();
-  return {-std::cos(2.0 * line), -std::sin(2.0 * line)};
-}
-
-HatchRule ruleOf(const HatchingParameters& p, const scene::ArFrame& frame, std::size_t set) {
-  const auto scale = static_cast<float>(scaleOf(frame.full()));
-  const auto bare = static_cast<float>(p.paperTone);
-  HatchRule rule;
-  rule.band = bare + (1.0F - bare) * kBands.at(static_cast<std::size_t>(p.directions) - 1).at(set);
-  rule.swell = static_cast<float>(p.swell);
-  rule.widthPx = static_cast<float>(p.width) * scale;
-  rule.isInverted = p.inverted;
-  rule.darkness = static_cast<float>(p.darkness);
-  rule.gamma = static_cast<float>(p.gamma);
-  rule.lead = static_cast<float>(p.lead);
-  rule.slope = slopeOf(p, frame);
-  const std::array<double, kMaxSets> turns{0.0, p.crossDegrees, -p.crossDegrees};
-  rule.turnRad = glm::radians(static_cast<float>(turns.at(set)));
-  rule.wanderRad = static_cast<float>(p.wander);
-  rule.cutOffRad = glm::radians(static_cast<float>(p.cutOffDegrees));
-  rule.taper = static_cast<float>(p.taper);
-  rule.evenness = static_cast<float>(p.evenness);
-  rule.fieldLevel = kFieldLevel;
-  rule.shapeMemory =
-      std::chrono::duration_cast<hal::Duration>(std::chrono::duration<double>(p.shapeTimeSeconds));
-  rule.fade =
-      std::chrono::duration_cast<hal::Duration>(std::chrono::duration<double>(p.fadeTimeSeconds));
-  rule.paint = glm::vec4(inkOf(p), static_cast<float>(p.opacity));
-  rule.colour = static_cast<float>(p.colour);
-  return rule;
-}
 
 /// The textures that are drawn on, of one image size.
 struct Canvas {
@@ -256,7 +181,7 @@ struct Hatching::State {
 
 void Hatching::State::take(const scene::ArFrame& frame, const HatchingParameters& p) {
   canvas = nullptr;
-  const DrawingPlan plan = planOf(p, frame.full());
+  const DrawingPlan plan = drawingPlanOf(p, frame.full());
   if (drawing == nullptr || drawing->full != frame.full() || drawing->plan != plan) {
     if (drawing != nullptr && drawing->full != frame.full()) canvases.clear();
     drawing.reset();
@@ -308,9 +233,9 @@ void Hatching::State::findContours(const scene::ArFrame& frame, const HatchingPa
   const hal::FrameSize regions = field.resolved(0).size();
   const glm::vec2 fieldScale(1.0 /
                              (field.regionPixels(0) * glm::dvec2(regions.width, regions.height)));
-  const auto step =
-      std::max(kMinContourStep,
-               static_cast<float>(p.contourWidth * scaleOf(frame.full()) * frame.pixelsOfFull().x));
+  const auto step = std::max(
+      kMinContourStep,
+      static_cast<float>(p.contourWidth * hatchScale(frame.full()) * frame.pixelsOfFull().x));
   const auto bindField = [&](gpu::Program& pass) {
     pass.texture("field", field.resolved(0))
         .texture("modelField", field.resolvedModels(0))
@@ -339,7 +264,7 @@ void Hatching::State::findContours(const scene::ArFrame& frame, const HatchingPa
 void Hatching::State::drawLines(const scene::ArFrame& frame, const HatchingParameters& p,
                                 std::string_view name) {
   for (std::size_t i = 0; i < drawing->sets.size(); ++i) {
-    HatchRule rule = ruleOf(p, frame, i);
+    HatchRule rule = hatchRuleOf(p, frame, i);
     if (!name.empty()) rule.paint = glm::vec4(kSetColours.at(i), 1.0F);
     if (!name.empty()) rule.colour = 0.0F;
     if (name == "ranks") rule.rankColour = 1.0F;
@@ -376,7 +301,7 @@ void Hatching::State::finish(const scene::ArFrame& frame, const HatchingParamete
       .set("hasFocus", frame.hasFocus ? 1 : 0)
       .set("contourWeight", static_cast<float>(p.contours))
       .set("lift", static_cast<float>(p.lift))
-      .set("inkColour", inkOf(p))
+      .set("inkColour", inkColourOf(p))
       .texture("colours", *source)
       .set("colour", static_cast<float>(p.colour))
       .set("paperColour", glm::vec3(p.paperRed, p.paperGreen, p.paperBlue))
@@ -393,7 +318,7 @@ void Hatching::State::show(const scene::ArFrame& frame, const HatchingParameters
       .texture("edges", canvas->edges)
       .set("view", static_cast<int>(viewIndex(kViews, name)))
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()));
-  bindHatchTone(view, frame, canvas->tone, ruleOf(p, frame, 0));
+  bindHatchTone(view, frame, canvas->tone, hatchRuleOf(p, frame, 0));
   view.drawFullscreen(canvas->pictureTarget);
 }
 
