@@ -10,6 +10,16 @@ import sys
 import xml.sax.saxutils
 
 
+# What happens in so many refreshes before its due one decides on a frame: it is handed over, copied and committed.
+DECISIVE = 2.5
+
+
+def standstills(path):
+    """From when to when the machine stood still, in seconds (programs/standstills.h)."""
+    with open(path, newline="") as file:
+        return [(float(row["from_s"]), float(row["to_s"])) for row in csv.DictReader(file)]
+
+
 class Flips:
     """The rows of one output, of a display that counts its refreshes, but for those of the run's end."""
 

@@ -2,20 +2,17 @@
 // is the time that frames are handed over, flipped and counted at. Under emulation the engine
 // paints too slowly for a camera's rate (scenarios/display_pace.py).
 //
-// Beside the log of frames, FILE.control says when the machine stood still.
+// Beside the log of frames, FILE.standstills says when the machine stood still.
 //
 // usage: paced_display CAMERA RATE FRAMES FILE      as --camera, camera.rate, --frames and
 //                                                   runtime.frame_log of pleinair run
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
-#include <fstream>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <string>
 #include <thread>
@@ -23,8 +20,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <pthread.h>
-#include <sched.h>
 
 #include "firmware_app/config/camera_selection.h"
 #include "firmware_app/live/frame_log_file.h"
@@ -33,7 +28,7 @@
 #include "hal/supervisor/camera_supervisor.h"
 #include "pipeline/runtime/live_pipeline.h"
 #include "pipeline/runtime/live_threads.h"
-#include "pipeline/runtime/thread_role.h"
+#include "tests/system/programs/standstills.h"
 
 namespace pleinair {
 namespace {
@@ -85,60 +80,6 @@ class GreyPainter final : public runtime::FramePainter {
   std::vector<Open> outputs_;
 };
 
-/// Threads, one pinned to each processor and as prompt as those of the pipeline, that sleep for a
-/// few milliseconds again and again: where one wakes late, the machine stood still, and no program
-/// could have been in time.
-class Control {
- public:
-  explicit Control(const hal::Clock& clock) {
-    for (unsigned each = 0; each < std::thread::hardware_concurrency(); ++each) {
-      threads_.emplace_back([this, &clock, each] { run(clock, each); });
-    }
-  }
-  ~Control() {
-    ends_ = true;
-    for (std::thread& each : threads_) each.join();
-  }
-  Control(const Control&) = delete;
-  Control& operator=(const Control&) = delete;
-
-  /// A row for each standstill: from when to when, in seconds on the steady clock.
-  void write(const std::string& file) {
-    const std::scoped_lock lock(mutex_);
-    std::ofstream rows(file);
-    rows << "from_s,to_s\n";
-    for (const auto& [from, to] : stills_) {
-      rows << fmt::format("{:.6f},{:.6f}\n", hal::toSeconds(from.time_since_epoch()),
-                          hal::toSeconds(to.time_since_epoch()));
-    }
-  }
-
- private:
-  static constexpr hal::Duration kInterval = 4ms;
-  static constexpr hal::Duration kLate = 3ms;
-
-  void run(const hal::Clock& clock, unsigned processor) {
-    runtime::setThreadRole("control", runtime::ThreadRole::kPrompt);
-    cpu_set_t only;
-    CPU_ZERO(&only);
-    CPU_SET(processor, &only);
-    ::pthread_setaffinity_np(::pthread_self(), sizeof(only), &only);
-    while (!ends_) {
-      const hal::TimePoint wanted = clock.now() + kInterval;
-      std::this_thread::sleep_for(kInterval);
-      const hal::TimePoint woke = clock.now();
-      if (woke - wanted < kLate) continue;
-      const std::scoped_lock lock(mutex_);
-      stills_.emplace_back(wanted, woke);
-    }
-  }
-
-  std::atomic<bool> ends_ = false;
-  std::mutex mutex_;
-  std::vector<std::pair<hal::TimePoint, hal::TimePoint>> stills_;
-  std::vector<std::thread> threads_;
-};
-
 int run(const std::string& source, double rate, std::uint64_t frames, const std::string& file) {
   constexpr hal::FrameSize kSize{320, 240};
   hal::SteadyClock clock;
@@ -171,7 +112,7 @@ int run(const std::string& source, double rate, std::uint64_t frames, const std:
   while (!threads.isPainterReady()) std::this_thread::sleep_for(1ms);
   threads.startOutputs();
 
-  Control control(clock);
+  Standstills standstills(clock);
   const auto captured = [&] { return pipeline.ledger().counts().captured; };
   const std::uint64_t before = captured();
   const hal::TimePoint began = clock.now();
@@ -182,7 +123,7 @@ int run(const std::string& source, double rate, std::uint64_t frames, const std:
   const hal::Duration took = clock.now() - began;
   const runtime::LiveThreads::Stopped stopped = threads.stop(1500ms);
   hal::orThrow(log.update());
-  control.write(file + ".control");
+  standstills.write(file + ".standstills");
   const runtime::DurationHistogram filling = output.status().writing;
   fmt::print("filling a surface takes {:.1f} ms (p50), {:.1f} ms (p95)\n",
              hal::toMilliseconds(filling.percentile(0.5)),

@@ -2,9 +2,8 @@
 is shown at the refresh that it is due at, by the display's own count; and again with both cores loaded, which is
 reported, not judged.
 
-A guest under emulation stands still whenever its host does something else, and then no program is in time. Control
-threads beside the pipeline notice that; frames that were due meanwhile are counted, but not judged."""
-import csv
+A guest under emulation stands still whenever its host does something else, and then no program is in time. Threads
+beside the pipeline notice that (programs/standstills.h); frames that were due meanwhile are counted, but not judged."""
 import os
 
 import flips
@@ -14,8 +13,6 @@ from guest import TooBusy
 RATE = 25
 FRAMES = 1500
 PERIOD = 1 / 60
-# What happens in so many refreshes before its due one decides on a frame: it is handed over, copied and committed.
-DECISIVE = 2.5
 FEWEST = 30  # frames to judge
 
 
@@ -40,15 +37,10 @@ def show(guest, name):
     taken.write_plot(os.path.join(guest.folder, name + ".svg"),
                      f"{name}: flips against due times, vkms at 60 Hz, {RATE} frames/s", PERIOD)
     report("all frames", taken)
-    decided = taken.without(standstills(guest, name), DECISIVE * PERIOD)
+    stills = flips.standstills(os.path.join(guest.folder, name + ".csv.standstills"))
+    decided = taken.without(stills, flips.DECISIVE * PERIOD)
     report("due while the machine ran", decided)
     return decided
-
-
-def standstills(guest, name):
-    """From when to when the machine stood still, in seconds."""
-    with open(os.path.join(guest.folder, name + ".csv.control"), newline="") as file:
-        return [(float(row["from_s"]), float(row["to_s"])) for row in csv.DictReader(file)]
 
 
 def report(what, taken):

@@ -1,6 +1,7 @@
 """vkms, a graphics card with exact vertical blanking: what has been painted in time is shown at the refresh that it is due
 at, by the display's own count; a minute each of the camera's picture and of watercolor. Under emulation most frames
-are replaced by newer ones before they are painted: the ledger says so."""
+are replaced by newer ones before they are painted: the ledger says so. Frames that were due while the emulated machine
+stood still are counted, but not judged."""
 import os
 
 import flips
@@ -32,6 +33,7 @@ def run(guest):
 
 def show(guest, style, seconds):
     """The rows of the frames that were painted in time."""
+    standstills = guest.start(f"./standstills /host/{style}.standstills", f"standstills-{style}")
     program = guest.start(
         f"env GALLIVM_PERF=nopt ./pleinair run --camera camera.y4m --style {style} "
         f"--size {SIZE[0]}x{SIZE[1]} --output display --set output.display.mode=640x480 "
@@ -50,16 +52,27 @@ def show(guest, style, seconds):
     assert output["pacing"] == "display", output
     assert output["refresh_phase_s"] > 0, output  # only flips that were counted tell it
     ledger = watched.stop()
+    standstills.signal("TERM")
+    assert standstills.wait(20).status == 0
 
     taken = flips.Flips(os.path.join(guest.folder, style + ".csv"), "display")
     taken.check_outcomes()
     taken.write_plot(os.path.join(guest.folder, style + ".svg"),
                      f"{style}: flips against due times, vkms at 60 Hz", PERIOD)
-    ready = [row for row in taken.flipped
-             if row["due_refresh"] and float(row["ready_s"]) < float(row["due_s"]) - IN_TIME]
+    ready = ready_in_time(taken)
     assert all(int(row["refresh"]) >= int(row["due_refresh"]) for row in ready), "shown early"
+    stills = flips.standstills(os.path.join(guest.folder, style + ".standstills"))
+    decided = ready_in_time(taken.without(stills, flips.DECISIVE * PERIOD))
     print(f"{style}: painted {status['painting']['frames_per_second']:.1f} frames/s; {len(taken.flipped)} "
-          f"flips, {taken.outcomes()}; {len(ready)} were ready in time, "
-          f"{sum(row['refresh'] == row['due_refresh'] for row in ready)} of them at their due refresh")
+          f"flips, {taken.outcomes()}; {told(ready)} were ready in time; {told(decided)} while the machine ran")
     print(style + ":", ledger)
-    return ready
+    return decided
+
+
+def ready_in_time(taken):
+    return [row for row in taken.flipped
+            if row["due_refresh"] and float(row["ready_s"]) < float(row["due_s"]) - IN_TIME]
+
+
+def told(rows):
+    return f"{len(rows)}, {sum(row['refresh'] == row['due_refresh'] for row in rows)} of them at their due refresh,"
