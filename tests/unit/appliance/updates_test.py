@@ -180,6 +180,8 @@ class Updates(unittest.TestCase):
                 notice = self.refused()
                 self.assertIn("cut.raucb is not complete", notice)
                 self.assertIn("copy it again", notice)
+                if size == whole // 2:
+                    self.assertRegex(notice, rf"\({size} bytes, and its content alone has \d+\)")
 
     def test_other_machines_bundles_are_refused(self):
         self.put(self.bundle("arm", "2.0", arch="arm64"))
