@@ -66,6 +66,10 @@ class Disk:
 
     def set(self, **values):
         write_block(self.block(), **values)
+        self.store()
+
+    def store(self):
+        """Puts the block that block() gave back."""
         self._put(self._block)
 
     def spoil(self):

@@ -43,11 +43,12 @@ class Machine:
                 **os.environ, "PLEINAIR_GRUBENV": self.disk.block(), "PLEINAIR_MACHINE": folder,
                 "PLEINAIR_CMDLINE": write("cmdline", f"quiet pleinair.slot={self.running} {words}\n"),
                 "PLEINAIR_UPTIME": write("uptime", f"{seconds}.27 99.00\n"),
-                "PLEINAIR_RESTART": f"touch {folder}/restarted"}
+                "PLEINAIR_RESTART": f"touch {folder}/restarted", "PLEINAIR_SETTLED": f"touch {folder}/settled"}
             # The machine calls GRUB's tool by its name.
             environment["PATH"] = os.path.join(grub.TOOLS, "bin") + ":" + environment["PATH"]
             subprocess.run([SLOTS, command], check=True, env=environment, capture_output=True)
-            self.disk._put(self.disk._block)
+            self.disk.store()
+            self.is_settled = os.path.exists(os.path.join(folder, "settled"))
             notice = os.path.join(folder, "notice")
             self.notice = ""
             if os.path.exists(notice):
@@ -140,7 +141,10 @@ class Slots(unittest.TestCase):
         self.machine.switch_on()
         self.machine.paint()
         self.machine.switch_on()
+        self.assertFalse(self.machine.system("check", seconds=599))
+        self.assertFalse(self.machine.is_settled)
         self.assertFalse(self.machine.system("check", seconds=100000))
+        self.assertTrue(self.machine.is_settled, "it is not asked again")
 
     def test_a_new_machine_without_a_camera_stays(self):
         self.machine.switch_on()
