@@ -210,7 +210,9 @@ def main():
         print("skipped:", missing)
         return SKIPPED
     if name == "prepare":
-        images.disk(), images.bundle(), images.hanging_bundle()
+        images.disk()
+        images.bundle()
+        images.hanging_bundle()
         return 0
     folder = os.path.join(os.path.abspath(results), name.replace(":", "-"))
     shutil.rmtree(folder, ignore_errors=True)
