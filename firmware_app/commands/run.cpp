@@ -337,8 +337,8 @@ int run(const RunOptions& options) {
          .commands = token.empty() ? nullptr : &commands,
          .frameLog = frameLogOf(configuration),
          .standingText = site ? site->text : std::string(),
-         .notice = notice ? std::function<std::string()>([&notice] { return notice->text(); })
-                          : nullptr,
+         .notice =
+             notice ? std::function<std::string()>([&notice] { return notice->text(); }) : nullptr,
          .steadyMark = steadyMark(),
          .siteOrigin = site ? site->provisioned.origin : std::string(),
          .isToStartAnew = site && site->watch

@@ -9,7 +9,8 @@
 namespace pleinair::app {
 
 MachineNotice::MachineNotice(const std::filesystem::path& file, hal::Duration interval)
-    : readings_("notice", [file] { return readNotice(file); }, interval) {}
+    : readings_(
+          "notice", [file] { return readNotice(file); }, interval) {}
 
 std::string MachineNotice::text() const {
   const auto reading = readings_.latest();

@@ -8,9 +8,9 @@
 namespace pleinair::app {
 
 /// How long a rescue picture stays until the service is tried again: each time twice as long while
-/// the service keeps failing, so that a machine that cannot paint is not busy with it. What is known
-/// of the time before is in a file of the service manager's, which ends with the machine's run. One
-/// thread.
+/// the service keeps failing, so that a machine that cannot paint is not busy with it. What is
+/// known of the time before is in a file of the service manager's, which ends with the machine's
+/// run. One thread.
 class RescueBackOff {
  public:
   static constexpr hal::Duration kLongest = std::chrono::minutes(30);
