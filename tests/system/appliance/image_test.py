@@ -26,6 +26,9 @@ SKIPPED = 77
 # Software GL, the kernel's virtual camera, and the journal on the serial port.
 WORDS = ("pleinair.software_gl modules_load=vivid console=ttyS0 systemd.journald.forward_to_console=1 "
          "pleinair.trial_minutes={}")
+# A real-time thread that the emulation slows down has used up its time, and is killed for it (LimitRTTIME=).
+EMULATED = "[Service]\nLimitRTPRIO=0\n"
+HANGING = "[Service]\nType=simple\nWatchdogSec=0\nExecStart=\nExecStart=/usr/bin/sleep infinity\n"
 CONFIRMED = r"slot {} is confirmed"
 CONFIRM_MINUTES = 45  # to the first painting and a minute more: 6 on an idle machine
 SITE = b'[painting]\nlook = "line_and_wash"\n'
@@ -46,7 +49,8 @@ class Images:
         programs = ("qemu-system-x86_64", "qemu-img", "rauc", "mcopy", "genimage")
         return next((each + " is not installed" for each in programs if not shutil.which(each)), None)
 
-    def _make(self, version, minutes, extra=None, keys=None):
+    def _make(self, version, minutes, kiosk_settings=EMULATED, keys=None):
+        """`kiosk_settings`: a drop-in of the service that paints."""
         output = os.path.join(self._made, version)
         done = os.path.join(output, "done")
         stamp = f"{os.path.getmtime(self._tar)} {minutes}"
@@ -55,8 +59,13 @@ class Images:
         shutil.rmtree(output, ignore_errors=True)
         command = [os.path.join(kiosk.SOURCE, "appliance", "image", "make-disk"), ARCH, self._tar, version,
                    keys or self._keys, output]
+        overlay = os.path.join(self._made, "overlay-" + version)
+        place = os.path.join(overlay, "etc", "systemd", "system", "pleinair-kiosk.service.d")
+        os.makedirs(place, exist_ok=True)
+        with open(os.path.join(place, "scenario.conf"), "w") as file:
+            file.write(kiosk_settings)
         began = time.monotonic()
-        subprocess.run(command + ([extra] if extra else []), check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        subprocess.run(command + [overlay], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                        env={**os.environ, "PLEINAIR_KERNEL_WORDS": WORDS.format(minutes)})
         print(f"version {version} was made in {time.monotonic() - began:.0f} s", flush=True)
         with open(done, "w") as file:
@@ -74,12 +83,7 @@ class Images:
 
     def hanging_bundle(self):
         """Version 3.0, which starts and does not paint."""
-        extra = os.path.join(self._made, "hangs")
-        place = os.path.join(extra, "etc", "systemd", "system", "pleinair-kiosk.service.d")
-        os.makedirs(place, exist_ok=True)
-        with open(os.path.join(place, "hangs.conf"), "w") as file:
-            file.write("[Service]\nType=simple\nWatchdogSec=0\nExecStart=\nExecStart=/usr/bin/sleep infinity\n")
-        return os.path.join(self._make("3.0", 3, extra), f"pleinair-{ARCH}-3.0.raucb")
+        return os.path.join(self._make("3.0", 3, HANGING), f"pleinair-{ARCH}-3.0.raucb")
 
     def small_bundle(self, folder, name, version, keys=None):
         """One of which only the signature and the version matter."""
