@@ -2,7 +2,7 @@
 """Scenarios of the machine image and of its updates, in QEMU. Each takes from ten minutes to an hour under emulation.
 
     image_test.py FOLDER_OF_IMAGES RESULTS prepare       makes what the others need, from `./dev image`'s root
-    image_test.py FOLDER_OF_IMAGES RESULTS SCENARIO      updates, copies, or power_cut:SEED
+    image_test.py FOLDER_OF_IMAGES RESULTS SCENARIO      install, updates, copies, or power_cut:SEED
 
 Exit status: 0; 1; 77, a skip: there is no image (./dev package; ./dev image), or a program is missing.
 """
@@ -146,6 +146,77 @@ def updates(images, folder):
         machine.screen("5-taken-back")
 
 
+# In place of init: udev and its rules, the mounts that RAUC needs, RAUC's service, and what udev starts for a stick.
+INSTALL = """export PATH=/usr/sbin:/usr/bin:/sbin:/bin PLEINAIR_RESTART='echo RESTARTS'
+mount -t tmpfs tmp /tmp
+mount -t tmpfs var /var
+ls /run/pleinair-machine/disk
+/lib/systemd/systemd-udevd --daemon
+udevadm trigger --action=add
+udevadm settle
+ls -l /dev/pleinair
+mount -t vfat /dev/pleinair/esp /boot/efi
+mkdir -p /run/dbus /run/rauc
+dbus-daemon --system --fork
+PATH=/usr/lib/pleinair/bin:$PATH rauc --mount=/run/rauc service &
+sleep 5
+/usr/lib/pleinair/install-update /dev/vdb
+echo "STATUS $?"
+cat /run/pleinair-machine/notice
+umount /boot/efi
+sync
+echo END
+echo o >/proc/sysrq-trigger
+sleep 60
+"""
+
+
+def partition(disk, name, size):
+    """The first bytes of a partition of a raw disk."""
+    with open(disk, "rb") as file:
+        file.seek(kiosk.check.partitions(disk)[name])
+        return hashlib.sha256(file.read(size)).hexdigest()
+
+
+def boot_block(disk, folder):
+    file = os.path.join(folder, "grubenv")
+    kiosk.run("mcopy", "-n", "-o", "-i", f"{disk}@@{kiosk.check.partitions(disk)['esp']}", "::EFI/BOOT/grubenv", file)
+    with open(file, "rb") as content:
+        lines = content.read().decode().splitlines()
+    return dict(line.split("=", 1) for line in lines if "=" in line)
+
+
+def install(images, folder):
+    """RAUC itself installs a bundle into the other slot, called by what udev starts for a stick; refused ones leave it alone."""
+    disk = os.path.join(folder, "disk.img")
+    kiosk.run("cp", "--sparse=always", images.disk(), disk)
+    kernel = os.path.join(os.path.dirname(images.disk()), f"kernel-{ARCH}")
+    script = os.path.join(folder, "script.sh")
+    with open(script, "w") as file:
+        file.write(INSTALL)
+    made = os.path.dirname(images.bundle())
+    sizes = {part: os.path.getsize(os.path.join(made, f"{part}-{ARCH}.{kind}"))
+             for part, kind in (("root", "verity"), ("kernel", "vfat"))}
+    before = {part: partition(disk, f"{part}-b", size) for part, size in sizes.items()}
+    old = kiosk.stick(os.path.join(folder, "old.img"), images.small_bundle(folder, "old.raucb", "0.9"))
+    said = kiosk.run_in_system(disk, kernel, script, old, folder, 60)
+    if "STATUS 1" not in said or "old.raucb is older (version 0.9)" not in said or "RESTARTS" in said:
+        raise Failed(said)
+    if before != {part: partition(disk, f"{part}-b", size) for part, size in sizes.items()}:
+        raise Failed("slot b was written to")
+    good = kiosk.stick(os.path.join(folder, "good.img"), images.bundle())
+    said = kiosk.run_in_system(disk, kernel, script, good, folder, 60)
+    if "STATUS 0" not in said or "RESTARTS" not in said:
+        raise Failed(said)
+    for part, kind in (("root", "verity"), ("kernel", "vfat")):
+        with open(os.path.join(made, f"{part}-{ARCH}.{kind}"), "rb") as file:
+            if hashlib.sha256(file.read()).hexdigest() != partition(disk, f"{part}-b", sizes[part]):
+                raise Failed(f"{part}-b is not what the bundle holds")
+    block = boot_block(disk, folder)
+    if (block["ORDER"], block["b_OK"], block["b_TRY"], block["TRIAL"]) != ("b a", "1", "0", "2.0"):
+        raise Failed(str(block))
+
+
 def digest(file):
     with open(file, "rb") as content:
         return hashlib.file_digest(content, "sha256").hexdigest()
@@ -225,7 +296,7 @@ def main():
         if name.startswith("power_cut:"):
             power_cut(images, folder, int(name.split(":")[1]))
         else:
-            {"updates": updates, "copies": copies}[name](images, folder)
+            {"updates": updates, "copies": copies, "install": install}[name](images, folder)
     except Failed:
         traceback.print_exc(file=sys.stdout)
         print("all it left:", folder)
