@@ -150,6 +150,7 @@ def updates(images, folder):
 INSTALL = """export PATH=/usr/sbin:/usr/bin:/sbin:/bin PLEINAIR_RESTART='echo RESTARTS'
 mount -t tmpfs tmp /tmp
 mount -t tmpfs var /var
+ln -s ../run /var/run
 ls /run/pleinair-machine/disk
 /lib/systemd/systemd-udevd --daemon
 udevadm trigger --action=add

@@ -219,6 +219,11 @@ class Updates(unittest.TestCase):
         self.assertFalse(self.has("restarted"))
         self.assertEqual(grub.read_block(self.block).get("TRIAL"), "")
 
+    def test_a_failure_without_a_reason_is_said_in_its_last_words(self):
+        self.rauc_answers("echo 'no bus'; exit 1")
+        self.put(self.good)
+        self.assertEqual(self.install()[1], "Version 2.0 could not be installed: no bus\nVersion 1.5 goes on.")
+
     def test_content_that_was_changed_is_found_when_it_is_read(self):
         self.put(self.good)
         path = os.path.join(self.stick, "good.raucb")
