@@ -158,6 +158,7 @@ udevadm settle
 ls -l /dev/pleinair
 mount -t vfat /dev/pleinair/esp /boot/efi
 mkdir -p /run/dbus /run/rauc
+modprobe -a loop squashfs
 dbus-daemon --system --fork
 PATH=/usr/lib/pleinair/bin:$PATH rauc --mount=/run/rauc service &
 sleep 5
