@@ -56,15 +56,18 @@ def add_words(disk, folder):
 class Machine:
     """A QEMU machine that ends with the `with` block."""
 
-    def __init__(self, disk, folder):
+    def __init__(self, disk, folder, restarts=False, arguments=()):
+        """`restarts`: a restart of the machine does not end it. `arguments`: further ones of QEMU."""
         self._socket = os.path.join(folder, "qmp")
         self._process = subprocess.Popen(
             ["qemu-system-x86_64", "-M", "q35", "-accel",
              "kvm" if os.environ.get("PLEINAIR_KVM") else "tcg,thread=multi", "-cpu", "max",
-             "-smp", "2", "-m", "2048", "-nodefaults", "-display", "none", "-no-reboot",
+             "-smp", "2", "-m", "2048", "-nodefaults", "-display", "none",
+             *(() if restarts else ("-no-reboot",)),
              "-drive", f"if=pflash,format=raw,readonly=on,file={FIRMWARE}",
-             "-drive", f"file={disk},if=virtio,format=raw", "-device", "virtio-vga",
-             "-qmp", f"unix:{self._socket},server,nowait"])
+             "-drive", f"file={disk},if=none,id=disk,format={'raw' if disk.endswith('.img') else 'qcow2'}",
+             "-device", "virtio-blk-pci,drive=disk,bootindex=0", "-device", "virtio-vga",
+             "-qmp", f"unix:{self._socket},server,nowait", *arguments])
 
     def __enter__(self):
         connection = socket.socket(socket.AF_UNIX)

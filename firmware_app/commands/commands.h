@@ -120,6 +120,7 @@ struct RunOptions {
   std::filesystem::path shaderDirectory;
   std::string program;                                ///< version of this program, for records
   std::optional<std::filesystem::path> provisioning;  ///< a folder with a site.toml
+  std::optional<std::filesystem::path> notice;        ///< a text for people, which may change
 };
 
 /// Paints a camera live: `pleinair run`. Throws hal::Failure and config::ConfigError. Returns the
@@ -131,7 +132,9 @@ struct RescueOptions {
   std::string title = "The painting will be back soon";
   std::string detail;
   std::optional<hal::Duration> time;  ///< default: until a signal
-  bool isProvisioned = false;         ///< by the last good site file of `pleinair run`
+  /// Twice as long each time, as RescueBackOff, where a service manager gives a folder.
+  bool backsOff = false;
+  bool isProvisioned = false;  ///< by the last good site file of `pleinair run`
 };
 
 /// Shows a picture with a text on the displays of the configuration, drawn by the processor:

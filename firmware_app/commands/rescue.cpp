@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +13,7 @@
 #include "firmware_app/commands/commands.h"
 #include "firmware_app/config/configuration.h"
 #include "firmware_app/live/last_painting.h"
+#include "firmware_app/live/rescue_back_off.h"
 #include "firmware_app/live/rescue_picture.h"
 #include "firmware_app/live/service_reporter.h"
 #include "firmware_app/provisioning/provisioning.h"
@@ -71,6 +74,16 @@ std::unique_ptr<hal::VirtualTerminal> takeConsole() {
   return taken ? *std::move(taken) : nullptr;
 }
 
+hal::TimePoint endOf(const RescueOptions& options, hal::TimePoint now) {
+  if (!options.time) return hal::kNoDeadline;
+  const char* const folder = options.backsOff ? std::getenv("RUNTIME_DIRECTORY") : nullptr;
+  if (folder == nullptr) return now + *options.time;
+  const hal::Duration time =
+      RescueBackOff(std::filesystem::path(folder) / "back-off").begin(*options.time, now);
+  spdlog::info("the service is tried again in {:.0f} s", hal::toSeconds(time));
+  return now + time;
+}
+
 }  // namespace
 
 int showRescue(const RescueOptions& options) {
@@ -87,7 +100,7 @@ int showRescue(const RescueOptions& options) {
       job.targets, [&](const std::string& target) { return hal::openOutput(target, job.options); },
       {.title = options.title, .detail = job.problem.empty() ? options.detail : job.problem},
       lastPainting(), reporter.renewal(), clock);
-  const hal::TimePoint end = options.time ? clock.now() + *options.time : hal::kNoDeadline;
+  const hal::TimePoint end = endOf(options, clock.now());
   std::string problem;
   while (Interrupt::received() == 0 && clock.now() < end) {
     if (terminal) terminal->follow();

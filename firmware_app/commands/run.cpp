@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -21,6 +23,7 @@
 #include "firmware_app/config/reload.h"
 #include "firmware_app/live/last_painting.h"
 #include "firmware_app/live/live_painting.h"
+#include "firmware_app/live/machine_notice.h"
 #include "firmware_app/overlay/machine.h"
 #include "firmware_app/provisioning/provisioning.h"
 #include "firmware_app/repair_station/step_inputs.h"
@@ -103,6 +106,7 @@ std::vector<std::string> commandOf(const RunOptions& options) {
     if (!isTuned) add("--set", setting);
   }
   if (options.provisioning) add("--provisioning", options.provisioning->string());
+  if (options.notice) add("--notice", options.notice->string());
   if (!options.shaderDirectory.empty()) add("--shaders", options.shaderDirectory.string());
   return words;
 }
@@ -251,6 +255,12 @@ std::optional<SiteSetup> provisionedSite(const RunOptions& options, Configuratio
   return setup;
 }
 
+/// In the folder that a service manager has made for this run; empty: there is none.
+std::filesystem::path steadyMark() {
+  const char* const folder = std::getenv("RUNTIME_DIRECTORY");
+  return folder == nullptr ? std::filesystem::path() : std::filesystem::path(folder) / "steady";
+}
+
 /// The server's thread.
 hal::Result<void> putCommand(StepCommandQueue& commands, std::string_view text) {
   auto command = procedure::parseStepCommand(text);
@@ -269,6 +279,8 @@ int run(const RunOptions& options) {
   hal::FileDescriptor statusSocket = takePassedSocket();
   ConfigurationRequest request = options.configuration;
   const std::optional<SiteSetup> site = provisionedSite(options, request, serviceManager.isThere());
+  std::optional<MachineNotice> notice;
+  if (options.notice) notice.emplace(*options.notice);
   const Configuration configuration(request);
   return configuration.attributing([&] {
     scene::Scene scene = configuredScene(configuration);
@@ -325,6 +337,9 @@ int run(const RunOptions& options) {
          .commands = token.empty() ? nullptr : &commands,
          .frameLog = frameLogOf(configuration),
          .standingText = site ? site->text : std::string(),
+         .notice =
+             notice ? std::function<std::string()>([&notice] { return notice->text(); }) : nullptr,
+         .steadyMark = steadyMark(),
          .siteOrigin = site ? site->provisioned.origin : std::string(),
          .isToStartAnew = site && site->watch
                               ? std::function<bool()>([&site] { return site->watch->hasChanged(); })

@@ -170,8 +170,12 @@ hal::Result<void> LiveInput::updateWindow(runtime::LivePipeline* pipeline, doubl
 }
 
 std::string LiveInput::pinnedText(const std::string& step) const {
-  if (step.empty() || job_.standingText.empty()) return step + job_.standingText;
-  return step + "\n\n" + job_.standingText;
+  std::string text = step;
+  const std::string notice = job_.notice ? job_.notice() : std::string();
+  for (const std::string& each : {job_.standingText, notice}) {
+    if (!each.empty()) text += (text.empty() ? "" : "\n\n") + each;
+  }
+  return text;
 }
 
 void LiveInput::updateDisplays(const std::vector<runtime::OutputStage*>& displays) {

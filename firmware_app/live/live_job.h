@@ -61,6 +61,10 @@ struct LiveJob {
   std::filesystem::path frameLog;        ///< the file that FrameLogFile writes; empty: none
   /// Shown over the painting all the time, such as what is wrong with a site file; empty: nothing.
   std::string standingText;
+  /// Shown beside it, and may change at any time; null: nothing. Any thread.
+  std::function<std::string()> notice;
+  /// A file that is made once paintings have been seen for a minute (SteadyPainting); empty: none.
+  std::filesystem::path steadyMark;
   std::string siteOrigin;  ///< where the site file in force came from; empty: nowhere
   /// Whether to end, because another start would be set up differently; null: never.
   std::function<bool()> isToStartAnew;

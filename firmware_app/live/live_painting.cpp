@@ -36,6 +36,7 @@
 #include "firmware_app/live/service_reporter.h"
 #include "firmware_app/live/snapshot_saver.h"
 #include "firmware_app/live/status_page.h"
+#include "firmware_app/live/steady_painting.h"
 #include "firmware_app/live/thumbnail.h"
 #include "firmware_app/repair_station/live_overlay.h"
 #include "firmware_app/scene/scene_warnings.h"
@@ -74,7 +75,8 @@ class LivePainting {
         pipeline_(supervisor_, *job.clock),
         outputs_(job, pipeline_, reporter_, openFrameLog()),
         saver_(job.snapshots),
-        health_(job.health, heatRules(job.runtime)) {
+        health_(job.health, heatRules(job.runtime)),
+        steady_(job.steadyMark) {
     if (job_.machine) machine_ = machinePlaceOf(job_.scene.models[*job_.machine]);
     if (!job.serviceManager) return;
     service_.emplace(*job.serviceManager);
@@ -208,7 +210,9 @@ class LivePainting {
     const auto painting = paintStatus();
     const runtime::RuntimeStatus status = statusNow();
     const bool isStreaming = status.camera.state == hal::CameraState::kStreaming;
-    service_->update({.outputs = outputs_.progress(),
+    const std::vector<OutputProgress> progress = outputs_.progress();
+    steady_.update(progress, job_.clock->now());
+    service_->update({.outputs = progress,
                       .expectsPaintings = hasBegun_ && isStreaming && painting.hasPainter,
                       .painted = painting.painted},
                      hasBegun_ ? runtime::statusLine(status, qualityNames()) : startingText(status),
@@ -612,6 +616,7 @@ class LivePainting {
   std::atomic<bool> isPipelineMade_ = false;      ///< outputs and paint stage exist
   std::unique_ptr<StatusServer> server_;          ///< reads the pipeline's status
   std::optional<ServiceReporter> service_;        ///< unset where no service manager listens
+  SteadyMark steady_;
 
   hal::TimePoint waitingSince_;  ///< set before the status server starts
   hal::TimePoint began_;

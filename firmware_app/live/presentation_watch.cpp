@@ -8,6 +8,7 @@ namespace pleinair::app {
 OutputProgress progressOf(const runtime::OutputStage::Status& output, bool isScreen) {
   return {.name = output.name,
           .shown = output.presented + output.waitingShown,
+          .paintings = output.presented,
           .submitted = output.submitted,
           .steps = output.steps,
           .isExcused = output.isFailed || output.suspension.has_value(),

@@ -14,6 +14,7 @@ namespace pleinair::app {
 struct OutputProgress {
   std::string name;
   std::uint64_t shown = 0;      ///< frames and waiting pictures that people have seen
+  std::uint64_t paintings = 0;  ///< the frames among them
   std::uint64_t submitted = 0;  ///< frames that it was to show
   std::uint64_t steps = 0;      ///< turns of its thread
   /// It cannot show anything now and says why: a display that is unplugged, off or not in front.

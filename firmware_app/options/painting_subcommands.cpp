@@ -213,6 +213,11 @@ void addRun(CLI::App& app, RunOptions& options, std::function<int()>& chosen) {
                   "last good one is kept, and what is wrong is shown (docs/appliance.md)")
       ->excludes(command.get_option("--config"))
       ->type_name("DIR");
+  command
+      .add_option("--notice", options.notice,
+                  "a text file that another program writes, shown over the painting for as long as "
+                  "it says something")
+      ->type_name("FILE");
   command.footer("In the window, h lists the keys.");
   refuseEmptyValues(command);
   command.callback([&] { chosen = [&options] { return run(options); }; });
@@ -237,6 +242,11 @@ void addRescue(CLI::App& app, RescueOptions& options, std::function<int()>& chos
           },
           "end after this time (default: at a signal)")
       ->type_name("N");
+  command
+      .add_flag("--back-off", options.backsOff,
+                "under a service manager, stay twice as long each time that the picture is needed "
+                "again within ten minutes, at most half an hour")
+      ->needs("--seconds");
   addConfiguration(command, options.configuration);
   command
       .add_flag("--provisioned", options.isProvisioned,

@@ -1,0 +1,310 @@
+#!/usr/bin/env python3
+"""Scenarios of the machine image and of its updates, in QEMU. Each takes from ten minutes to an hour under emulation.
+
+    image_test.py FOLDER_OF_IMAGES RESULTS prepare       makes what the others need, from `./dev image`'s root
+    image_test.py FOLDER_OF_IMAGES RESULTS SCENARIO      install, updates, copies, or power_cut:SEED
+
+Exit status: 0; 1; 77, a skip: there is no image (./dev package; ./dev image), or a program is missing.
+"""
+import hashlib
+import os
+import random
+import shutil
+import subprocess
+import sys
+import time
+import traceback
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import kiosk  # noqa: E402
+from kiosk import Failed, Kiosk  # noqa: E402
+
+ARCH = "amd64"
+SKIPPED = 77
+# Software GL, the kernel's virtual camera, and the journal on the serial port.
+WORDS = ("pleinair.software_gl modules_load=vivid console=ttyS0 systemd.journald.forward_to_console=1 "
+         "pleinair.trial_minutes={}")
+# A real-time thread that the emulation slows down has used up its time, and is killed for it (LimitRTTIME=).
+EMULATED = "[Service]\nLimitRTPRIO=0\n"
+HANGING = "[Service]\nType=simple\nWatchdogSec=0\nExecStart=\nExecStart=/usr/bin/sleep infinity\n"
+CONFIRMED = r"slot {} is confirmed"
+CONFIRM_MINUTES = 45  # to the first painting and a minute more: 6 on an idle machine
+SITE = b'[painting]\nlook = "line_and_wash"\n'
+
+
+class Images:
+    """What `./dev image` has made, and disks and bundles of other versions of the same system."""
+
+    def __init__(self, folder):
+        self._folder = folder
+        self._made = os.path.join(folder, "scenarios")
+        self._keys = os.environ.get("PLEINAIR_UPDATE_KEY", os.path.join(os.path.dirname(folder), "update-key"))
+        self._tar = os.path.join(folder, f"root-{ARCH}.tar")
+
+    def missing(self):
+        if not os.path.exists(self._tar):
+            return f"there is no {self._tar}: ./dev package; ./dev image"
+        programs = ("qemu-system-x86_64", "qemu-img", "rauc", "mcopy", "genimage")
+        return next((each + " is not installed" for each in programs if not shutil.which(each)), None)
+
+    def _make(self, version, minutes, kiosk_settings=EMULATED, keys=None):
+        """`kiosk_settings`: a drop-in of the service that paints."""
+        output = os.path.join(self._made, version)
+        done = os.path.join(output, "done")
+        stamp = f"{os.path.getmtime(self._tar)} {minutes}"
+        if os.path.exists(done) and open(done).read() == stamp:
+            return output
+        shutil.rmtree(output, ignore_errors=True)
+        command = [os.path.join(kiosk.SOURCE, "appliance", "image", "make-disk"), ARCH, self._tar, version,
+                   keys or self._keys, output]
+        overlay = os.path.join(self._made, "overlay-" + version)
+        place = os.path.join(overlay, "etc", "systemd", "system", "pleinair-kiosk.service.d")
+        os.makedirs(place, exist_ok=True)
+        with open(os.path.join(place, "scenario.conf"), "w") as file:
+            file.write(kiosk_settings)
+        began = time.monotonic()
+        subprocess.run(command + [overlay], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                       env={**os.environ, "PLEINAIR_KERNEL_WORDS": WORDS.format(minutes)})
+        print(f"version {version} was made in {time.monotonic() - began:.0f} s", flush=True)
+        with open(done, "w") as file:
+            file.write(stamp)
+        return output
+
+    def disk(self):
+        certificate = os.path.join(self._made, "certificate")  # without a key there is no bundle, which takes longest
+        os.makedirs(certificate, exist_ok=True)
+        shutil.copy(os.path.join(self._keys, "update.crt"), certificate)
+        return os.path.join(self._make("1.0", 40, keys=certificate), f"pleinair-{ARCH}.img")
+
+    def bundle(self, version="2.0"):
+        return os.path.join(self._make(version, 40), f"pleinair-{ARCH}-{version}.raucb")
+
+    def hanging_bundle(self):
+        """Version 3.0, which starts and does not paint."""
+        return os.path.join(self._make("3.0", 3, HANGING), f"pleinair-{ARCH}-3.0.raucb")
+
+    def small_bundle(self, folder, name, version, keys=None):
+        """One of which only the signature and the version matter."""
+        content = os.path.join(folder, "content")
+        with open(content, "wb") as file:
+            file.write(random.Random(1).randbytes(1 << 20))
+        path = os.path.join(folder, name)
+        keys = keys or self._keys
+        kiosk.run(os.path.join(kiosk.SOURCE, "appliance", "update", "make-bundle"), version, ARCH, f"{keys}/update.key",
+                  f"{keys}/update.crt", content, content, path)
+        return path
+
+
+def updates(images, folder):
+    """Bundles that are wrong are refused; a newer version is installed and stays; one that does not paint goes back."""
+    foreign = os.path.join(folder, "foreign-key")
+    kiosk.run(os.path.join(kiosk.SOURCE, "appliance", "update", "make-key"), foreign)
+    truncated = os.path.join(folder, "cut.raucb")
+    with open(images.bundle(), "rb") as whole, open(truncated, "wb") as part:
+        part.write(whole.read(30 << 20))
+    wrong = kiosk.stick(os.path.join(folder, "wrong.img"), truncated,
+                        images.small_bundle(folder, "foreign.raucb", "9.0", foreign),
+                        images.small_bundle(folder, "old.raucb", "0.9"))
+    good = kiosk.stick(os.path.join(folder, "good.img"), images.bundle())
+    hanging = kiosk.stick(os.path.join(folder, "hanging.img"), images.hanging_bundle())
+    disk = kiosk.overlay(images.disk(), os.path.join(folder, "disk.qcow2"))
+    with Kiosk(disk, folder) as machine:
+        machine.wait_for(CONFIRMED.format("a"), CONFIRM_MINUTES)
+        machine.screen("1-painting")
+
+        machine.plug_in(wrong)
+        machine.wait_for(r"cut\.raucb is not complete", 10)
+        for line in ("foreign.raucb is signed with a key that this machine does not know.",
+                     "old.raucb is older (version 0.9) than what this machine has (1.0)."):
+            machine.wait_for(line.replace("(", r"\(").replace(")", r"\)"), 1)
+        time.sleep(20)
+        before, after = kiosk.check.Screen(os.path.join(folder, "1-painting.ppm")), machine.screen("2-refused")
+        if after.changed(before) < kiosk.check.MOVED:
+            raise Failed("the screen says nothing of it")
+        machine.pull()
+        if machine.has_said("Installing version"):
+            raise Failed("something was installed")
+
+        machine.plug_in(good)
+        machine.wait_for("Installing version 2.0", 10)
+        time.sleep(20)
+        machine.screen("3-installing")
+        machine.wait_for("Version 2.0 is installed", 60)
+        machine.wait_for(CONFIRMED.format("b"), CONFIRM_MINUTES)
+        machine.screen("4-updated")
+        machine.pull()
+
+        machine.plug_in(hanging)
+        machine.wait_for("Version 3.0 is installed", 60)
+        machine.wait_for("slot a has not painted for a minute", 30)
+        machine.pull()
+        machine.wait_for("Version 3.0 did not paint here and was taken back", CONFIRM_MINUTES)
+        machine.wait_for(CONFIRMED.format("b"), 1)
+        time.sleep(20)
+        machine.screen("5-taken-back")
+
+
+# In place of init: udev and its rules, the mounts that RAUC needs, RAUC's service, and what udev starts for a stick.
+INSTALL = """export PATH=/usr/sbin:/usr/bin:/sbin:/bin PLEINAIR_RESTART='echo RESTARTS'
+mount -t tmpfs tmp /tmp
+mount -t tmpfs var /var
+ln -s ../run /var/run
+ls /run/pleinair-machine/disk
+/lib/systemd/systemd-udevd --daemon
+udevadm trigger --action=add
+udevadm settle
+ls -l /dev/pleinair
+mount -t vfat /dev/pleinair/esp /boot/efi
+mkdir -p /run/dbus /run/rauc
+modprobe -a loop squashfs
+dbus-daemon --system --fork
+PATH=/usr/lib/pleinair/bin:$PATH rauc --mount=/run/rauc service &
+sleep 5
+/usr/lib/pleinair/install-update /dev/vdb
+echo "STATUS $?"
+cat /run/pleinair-machine/notice
+umount /boot/efi
+sync
+echo END
+echo o >/proc/sysrq-trigger
+sleep 60
+"""
+
+
+def partition(disk, name, size):
+    """The first bytes of a partition of a raw disk."""
+    with open(disk, "rb") as file:
+        file.seek(kiosk.check.partitions(disk)[name])
+        return hashlib.sha256(file.read(size)).hexdigest()
+
+
+def boot_block(disk, folder):
+    file = os.path.join(folder, "grubenv")
+    kiosk.run("mcopy", "-n", "-o", "-i", f"{disk}@@{kiosk.check.partitions(disk)['esp']}", "::EFI/BOOT/grubenv", file)
+    with open(file, "rb") as content:
+        lines = content.read().decode().splitlines()
+    return dict(line.split("=", 1) for line in lines if "=" in line)
+
+
+def install(images, folder):
+    """RAUC itself installs a bundle into the other slot, called by what udev starts for a stick; refused ones leave it alone."""
+    disk = os.path.join(folder, "disk.img")
+    kiosk.run("cp", "--sparse=always", images.disk(), disk)
+    kernel = os.path.join(os.path.dirname(images.disk()), f"kernel-{ARCH}")
+    script = os.path.join(folder, "script.sh")
+    with open(script, "w") as file:
+        file.write(INSTALL)
+    made = os.path.dirname(images.bundle())
+    sizes = {part: os.path.getsize(os.path.join(made, f"{part}-{ARCH}.{kind}"))
+             for part, kind in (("root", "verity"), ("kernel", "vfat"))}
+    before = {part: partition(disk, f"{part}-b", size) for part, size in sizes.items()}
+    old = kiosk.stick(os.path.join(folder, "old.img"), images.small_bundle(folder, "old.raucb", "0.9"))
+    said = kiosk.run_in_system(disk, kernel, script, old, folder, 60)
+    if "STATUS 1" not in said or "old.raucb is older (version 0.9)" not in said or "RESTARTS" in said:
+        raise Failed(said)
+    if before != {part: partition(disk, f"{part}-b", size) for part, size in sizes.items()}:
+        raise Failed("slot b was written to")
+    good = kiosk.stick(os.path.join(folder, "good.img"), images.bundle())
+    said = kiosk.run_in_system(disk, kernel, script, good, folder, 60)
+    if "STATUS 0" not in said or "RESTARTS" not in said:
+        raise Failed(said)
+    for part, kind in (("root", "verity"), ("kernel", "vfat")):
+        with open(os.path.join(made, f"{part}-{ARCH}.{kind}"), "rb") as file:
+            if hashlib.sha256(file.read()).hexdigest() != partition(disk, f"{part}-b", sizes[part]):
+                raise Failed(f"{part}-b is not what the bundle holds")
+    block = boot_block(disk, folder)
+    if (block["ORDER"], block["b_OK"], block["b_TRY"], block["TRIAL"]) != ("b a", "1", "0", "2.0"):
+        raise Failed(str(block))
+
+
+def digest(file):
+    with open(file, "rb") as content:
+        return hashlib.file_digest(content, "sha256").hexdigest()
+
+
+def copies(images, folder):
+    """A stick with a copy of the image beside the machine's disk: not a byte of it is written."""
+    copy = os.path.join(folder, "copy.img")
+    kiosk.run("cp", "--sparse=always", images.disk(), copy)
+    before = digest(copy)
+    disk = kiosk.overlay(images.disk(), os.path.join(folder, "disk.qcow2"))
+    devices = ("-drive", f"file={copy},if=none,id=copy,format=raw", "-device", "usb-storage,bus=usb.0,drive=copy")
+    with Kiosk(disk, folder, devices) as machine:
+        machine.wait_for("the root slots of vda have identities of their own now", 30)
+        machine.wait_for(CONFIRMED.format("a"), CONFIRM_MINUTES)
+    if digest(copy) != before:
+        raise Failed("the copy was written to")
+
+
+def set_up_disk(images, folder):
+    """A new machine's disk with a site.toml on the partition that any computer can write."""
+    raw = os.path.join(folder, "disk.img")
+    kiosk.run("cp", "--sparse=always", images.disk(), raw)
+    site = os.path.join(folder, "site.toml")
+    with open(site, "wb") as file:
+        file.write(SITE)
+    kiosk.run("mcopy", "-i", f"{raw}@@{kiosk.check.partitions(raw)['provisioning']}", site, "::")
+    return raw
+
+
+def reach(phase, machine, images, folder):
+    """Brings a machine that was switched on to a phase. Returns how many seconds that may take at most."""
+    if phase == "first start":
+        return 240
+    if phase == "painting":
+        machine.paints(CONFIRM_MINUTES)
+        return 120
+    if phase == "provisioning":
+        machine.wait_for("Mounted.*set up by", 30)
+        return 60
+    machine.wait_for(CONFIRMED.format("a"), CONFIRM_MINUTES)
+    machine.plug_in(kiosk.stick(os.path.join(folder, "good.img"), images.bundle()))
+    machine.wait_for("Installing version 2.0", 10)
+    return 400
+
+
+def power_cut(images, folder, seed):
+    """The emulator is killed at a moment that the seed chooses; the machine then starts and paints."""
+    chance = random.Random(seed)
+    phase = ("first start", "painting", "provisioning", "update")[seed % 4]
+    begun = set_up_disk(images, folder) if phase == "provisioning" else images.disk()
+    disk = kiosk.overlay(begun, os.path.join(folder, "disk.qcow2"))
+    with Kiosk(disk, folder) as machine:
+        moment = chance.uniform(0, reach(phase, machine, images, folder))
+        time.sleep(moment)
+        machine.cut_power()
+    print(f"seed {seed}: the power was cut {moment:.1f} s into: {phase}", flush=True)
+    with Kiosk(disk, os.path.join(folder, "after")) as machine:
+        print(f"painting again after {machine.paints(CONFIRM_MINUTES):.0f} s", flush=True)
+
+
+def main():
+    images, results, name = Images(os.path.abspath(sys.argv[1])), sys.argv[2], sys.argv[3]
+    missing = images.missing()
+    if missing:
+        print("skipped:", missing)
+        return SKIPPED
+    if name == "prepare":
+        images.disk()
+        images.bundle()
+        images.hanging_bundle()
+        return 0
+    folder = os.path.join(os.path.abspath(results), name.replace(":", "-"))
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    try:
+        if name.startswith("power_cut:"):
+            power_cut(images, folder, int(name.split(":")[1]))
+        else:
+            {"updates": updates, "copies": copies, "install": install}[name](images, folder)
+    except Failed:
+        traceback.print_exc(file=sys.stdout)
+        print("all it left:", folder)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,165 @@
+"""A machine that runs an image of the appliance in QEMU, by UEFI and GRUB: what its screen shows, what its journal says, sticks
+that come and go, and its power, which is cut by killing the emulator."""
+import contextlib
+import importlib.util
+import os
+import re
+import shutil
+import subprocess
+import time
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(HERE)))
+
+
+def _check_module():
+    spec = importlib.util.spec_from_file_location("check", os.path.join(SOURCE, "appliance", "image", "check.py"))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+check = _check_module()
+
+
+class Failed(AssertionError):
+    """It did not do what was expected."""
+
+
+def run(*command):
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+
+
+def overlay(disk, path):
+    """A disk that begins as another one and keeps what differs."""
+    run("qemu-img", "create", "-q", "-f", "qcow2", "-F", "raw" if disk.endswith(".img") else "qcow2",
+        "-b", os.path.abspath(disk), path)
+    return path
+
+
+def stick(path, *files):
+    """A FAT stick without partitions, with these files on it."""
+    size = sum(os.path.getsize(each) for each in files) // (1 << 20) + 8
+    with contextlib.suppress(FileNotFoundError):
+        os.remove(path)
+    run("/sbin/mkfs.vfat", "-n", "UPDATE", "-C", path, str(1024 * max(size, 40)))
+    for each in files:
+        run("mcopy", "-i", path, each, "::")
+    return path
+
+
+def run_in_system(disk, kernel, script, stick_file, folder, minutes):
+    """Runs a script in place of init, in the system of an image: its own kernel and initial file system, without firmware and
+    boot loader, which takes a minute where a whole start takes five. `kernel`: the folder of vmlinuz, initrd.img and cmdline.
+    `stick_file`: a second disk, /dev/vdb. Returns what the script has said."""
+    first = stick(os.path.join(folder, "script.img"), script)
+    with open(os.path.join(kernel, "cmdline")) as file:
+        words = file.read().strip()
+    command = f"modprobe -a vfat nls_cp437 nls_ascii; mount -t vfat -o ro /dev/vdc /mnt; exec bash /mnt/{os.path.basename(script)}"
+    said = os.path.join(folder, "said.log")
+    process = subprocess.Popen([
+        "qemu-system-x86_64", "-M", "q35", "-accel", "kvm" if os.environ.get("PLEINAIR_KVM") else "tcg,thread=multi",
+        "-cpu", "max", "-smp", "2", "-m", "1024", "-nodefaults", "-display", "none", "-no-reboot",
+        "-kernel", os.path.join(kernel, "vmlinuz"), "-initrd", os.path.join(kernel, "initrd.img"),
+        "-append", f'{words} console=ttyS0 init=/bin/bash -- -c "{command}"', "-serial", f"file:{said}",
+        *(word for file in (disk, stick_file, first)
+          for word in ("-drive", f"file={file},if=virtio,format={'qcow2' if file.endswith('.qcow2') else 'raw'}"))])
+    try:
+        process.wait(60 * minutes)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
+    with open(said, errors="replace") as file:
+        return file.read()
+
+
+class Kiosk:
+    """Switched on from `with` to its end. Restarts of the machine itself are its own matter."""
+
+    def __init__(self, disk, folder, devices=()):
+        """`disk`: a qcow2 file. `devices`: further arguments of QEMU."""
+        self.folder = folder
+        self._disk = disk
+        self._devices = devices
+        self._journal = os.path.join(folder, "journal.log")
+        self._machine = None
+        self._read = 0
+
+    def __enter__(self):
+        os.makedirs(self.folder, exist_ok=True)
+        with contextlib.suppress(FileNotFoundError):
+            os.remove(self._journal)
+        self._read = 0
+        self._machine = check.Machine(self._disk, self.folder, restarts=True, arguments=(
+            "-serial", f"file:{self._journal}", "-device", "qemu-xhci,id=usb", *self._devices))
+        self._machine.__enter__()
+        return self
+
+    def __exit__(self, *error):
+        self._machine.__exit__(*error)
+
+    def cut_power(self):
+        self._machine.__exit__()
+
+    def plug_in(self, file, name="stick"):
+        self._machine.command("blockdev-add", **{"node-name": name, "driver": "raw",
+                                                 "file": {"driver": "file", "filename": file}})
+        self._machine.command("device_add", driver="usb-storage", bus="usb.0", drive=name, id=name + "-device")
+
+    def pull(self, name="stick"):
+        self._machine.command("device_del", id=name + "-device")
+        for _ in range(100):
+            time.sleep(0.2)
+            with contextlib.suppress(RuntimeError):  # while it is in use
+                self._machine.command("blockdev-del", **{"node-name": name})
+                return
+        raise Failed("the stick cannot be pulled")
+
+    def journal(self):
+        try:
+            with open(self._journal, errors="replace") as file:
+                return file.read()
+        except FileNotFoundError:
+            return ""
+
+    def wait_for(self, pattern, minutes):
+        """Waits for a line of the journal behind the last one that was waited for. Returns the match."""
+        end = time.monotonic() + 60 * minutes
+        while time.monotonic() < end:
+            match = re.compile(pattern).search(self.journal(), self._read)
+            if match:
+                self._read = match.end()
+                return match
+            if not self._machine.is_running():
+                break
+            time.sleep(0.5)
+        raise Failed(f"waited {minutes} minutes for \"{pattern}\" in the journal:\n" + self.journal()[-3000:])
+
+    def has_said(self, text):
+        return text in self.journal()
+
+    def screen(self, name):
+        """What the screen shows now; kept as NAME.ppm."""
+        path = os.path.join(self.folder, name + ".ppm")
+        self._machine.command("screendump", filename=path)
+        return check.Screen(path)
+
+    def paints(self, minutes):
+        """Waits until two paintings differ, as those of a camera do. Text is a failure."""
+        end = time.monotonic() + 60 * minutes
+        began = time.monotonic()
+        waiting = last = None
+        while time.monotonic() < end and self._machine.is_running():
+            screen = self.screen("now")
+            after_firmware = time.monotonic() - began > check.FIRMWARE_SECONDS
+            if after_firmware and screen.kind() == "text":
+                shutil.copy(os.path.join(self.folder, "now.ppm"), os.path.join(self.folder, "text.ppm"))
+                raise Failed("there is text on the screen: " + os.path.join(self.folder, "text.ppm"))
+            if after_firmware and screen.kind() == "picture":
+                waiting = waiting or screen
+                if screen.changed(waiting) > check.OTHER_PICTURE:
+                    if last and check.MOVED < screen.changed(last) < 1.0:
+                        return time.monotonic() - began
+                    last = screen
+            time.sleep(1)
+        raise Failed(f"no painting came within {minutes} minutes")

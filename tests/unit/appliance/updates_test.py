@@ -1,0 +1,254 @@
+#!/usr/bin/env python3
+"""Bundles as they are made, judged, and installed from a folder: each refusal is a line on the screen. RAUC itself reads them;
+what it would write to slots is left out here (tests/system/appliance)."""
+import os
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import grub  # noqa: E402
+
+UPDATE = os.path.join(grub.SOURCE, "appliance", "update")
+INSTALL = os.path.join(grub.TOOLS, "install-update")
+PATH = os.environ["PATH"] + ":/usr/sbin:/sbin"
+MISSING = next((each for each in ("rauc", "mksquashfs", "veritysetup", "openssl", "dpkg", "flock")
+                if not shutil.which(each, path=PATH)), None)
+
+RAUC = """#!/bin/sh
+case $1 in
+  install) echo "installing"; echo " 40% Copying image to root.1"; echo "$2" >"{folder}/installed"; {outcome} ;;
+  *) exec {rauc} --keyring={key}/update.crt "$@" ;;
+esac
+"""
+
+
+def make(*command):
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                   env={**os.environ, "PATH": PATH})
+
+
+@unittest.skipIf(MISSING, f"{MISSING} is not installed")
+class Updates(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.made = folder.name
+        cls.key, cls.other_key = (os.path.join(cls.made, name) for name in ("key", "other"))
+        make(os.path.join(UPDATE, "make-key"), cls.key)
+        make(os.path.join(UPDATE, "make-key"), cls.other_key)
+        for name, size in (("root", 300_000), ("kernel", 50_000)):
+            with open(os.path.join(cls.made, name), "wb") as file:
+                file.write(random.Random(size).randbytes(size))  # does not shrink
+        cls.good = cls.bundle("good", "2.0")
+
+    @classmethod
+    def bundle(cls, name, version, key=None, arch="amd64"):
+        path = os.path.join(cls.made, name + ".raucb")
+        key = key or cls.key
+        make(os.path.join(UPDATE, "make-bundle"), version, arch, f"{key}/update.key", f"{key}/update.crt",
+             f"{cls.made}/root", f"{cls.made}/kernel", path)
+        return path
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.stick = os.path.join(self.folder, "stick")
+        os.makedirs(self.stick)
+        self.block = os.path.join(self.folder, "grubenv")
+        subprocess.run([grub.EDIT, self.block, "create"], check=True)
+        self.write("os-release", 'NAME="Debian"\nIMAGE_VERSION=1.5\n')
+        self.write("system.conf", "[system]\ncompatible=pleinair-amd64\n")
+        self.rauc_answers("exit 0")
+
+    def write(self, name, text):
+        with open(os.path.join(self.folder, name), "w") as file:
+            file.write(text)
+
+    def rauc_answers(self, outcome):
+        os.makedirs(os.path.join(self.folder, "bin"), exist_ok=True)
+        self.write("bin/rauc", RAUC.format(folder=self.folder, outcome=outcome, key=self.key,
+                                           rauc=shutil.which("rauc", path=PATH)))
+        os.chmod(os.path.join(self.folder, "bin/rauc"), 0o755)
+
+    def put(self, bundle, name=None):
+        shutil.copy(bundle, os.path.join(self.stick, name or os.path.basename(bundle)))
+
+    def shorten(self, name, size):
+        os.truncate(os.path.join(self.stick, name), size)
+
+    def install(self, place=None):
+        """Returns the exit status and what the screen says at the end."""
+        environment = {
+            **os.environ, "PLEINAIR_LIBRARY_FOLDER": grub.TOOLS, "PLEINAIR_MACHINE": os.path.join(self.folder, "run"),
+            "PLEINAIR_RELEASE": os.path.join(self.folder, "os-release"), "PLEINAIR_GRUBENV": self.block,
+            "PLEINAIR_RAUC": os.path.join(self.folder, "system.conf"),
+            "PLEINAIR_RESTART": f"touch {self.folder}/restarted",
+            "PATH": f"{self.folder}/bin:{grub.TOOLS}/bin:{PATH}"}
+        done = subprocess.run([INSTALL, place or self.stick], env=environment, capture_output=True, text=True)
+        self.said = done.stdout
+        notice = os.path.join(self.folder, "run", "notice")
+        if not os.path.exists(notice):
+            return done.returncode, ""
+        with open(notice) as file:
+            return done.returncode, file.read().strip()
+
+    def has(self, name):
+        return os.path.exists(os.path.join(self.folder, name))
+
+    def refused(self):
+        """What the screen says of a stick from which nothing is to be installed."""
+        status, notice = self.install()
+        self.assertEqual(status, 1, notice)
+        self.assertFalse(self.has("installed") or self.has("restarted"), notice)
+        return notice
+
+    def test_the_same_content_and_key_give_the_same_bytes(self):
+        again = self.bundle("again", "2.0")
+        with open(self.good, "rb") as one, open(again, "rb") as two:
+            self.assertEqual(one.read(), two.read())
+
+    def test_a_newer_version_is_installed_and_started(self):
+        self.put(self.good)
+        status, notice = self.install()
+        self.assertEqual((status, notice), (0, "Version 2.0 is installed: the machine starts anew."))
+        self.assertIn("Installing version 2.0: please leave the stick in and the power on.", self.said)
+        self.assertTrue(self.has("installed") and self.has("restarted"))
+        self.assertEqual(grub.read_block(self.block)["TRIAL"], "2.0")
+
+    def test_a_file_is_installed_like_a_stick(self):
+        self.assertEqual(self.install(self.good)[0], 0)
+        self.assertTrue(self.has("installed"))
+
+    def test_the_newest_of_several_is_taken(self):
+        self.put(self.good)
+        self.put(self.bundle("newest", "10.0"))
+        self.put(self.bundle("middle", "9.0"), "z.raucb")
+        self.put(self.bundle("wrong", "11.0", key=self.other_key))
+        self.assertIn("10.0", self.install()[1])
+
+    def test_a_stick_without_bundles_is_no_matter(self):
+        with open(os.path.join(self.stick, "holiday.jpg"), "w") as file:
+            file.write("x")
+        self.assertEqual(self.install(), (0, ""))
+
+    def test_an_older_version_is_refused(self):
+        self.put(self.bundle("old", "1.4"))
+        self.assertEqual(self.refused(), "old.raucb is older (version 1.4) than what this machine has (1.5).")
+
+    def test_versions_are_compared_as_numbers_and_not_as_text(self):
+        self.write("os-release", "IMAGE_VERSION=1.10\n")
+        self.put(self.bundle("nine", "1.9"))
+        self.assertIn("is older", self.refused())
+
+    def test_a_candidate_comes_before_its_release(self):
+        self.write("os-release", "IMAGE_VERSION=2.0\n")
+        self.put(self.bundle("candidate", "2.0~rc1"))
+        self.assertIn("is older", self.refused())
+
+    def test_the_running_version_is_not_installed_again(self):
+        self.put(self.bundle("same", "1.5"))
+        self.assertEqual(self.refused(), "same.raucb is version 1.5, which this machine has.")
+
+    def test_a_wrong_key_is_refused(self):
+        self.put(self.bundle("foreign", "2.0", key=self.other_key))
+        self.assertEqual(self.refused(), "foreign.raucb is signed with a key that this machine does not know.")
+
+    def test_a_manifest_that_was_changed_is_refused(self):
+        self.put(self.bundle("forged", "1.4"))
+        path = os.path.join(self.stick, "forged.raucb")
+        with open(path, "rb") as file:
+            content = file.read()
+        self.assertEqual(content.count(b"version=1.4"), 1)
+        with open(path, "wb") as file:
+            file.write(content.replace(b"version=1.4", b"version=9.4"))
+        self.assertTrue(self.refused().startswith("forged.raucb "))
+
+    def test_truncated_bundles_are_refused_wherever_they_were_cut(self):
+        whole = os.path.getsize(self.good)
+        for size in (0, 3, 4000, whole // 2, whole - 5000, whole - 100, whole - 1):
+            with self.subTest(size=size):
+                self.put(self.good, "cut.raucb")
+                self.shorten("cut.raucb", size)
+                notice = self.refused()
+                self.assertIn("cut.raucb is not complete", notice)
+                self.assertIn("copy it again", notice)
+                if size == whole // 2:
+                    self.assertRegex(notice, rf"\({size} bytes, and its content alone has \d+\)")
+
+    def test_other_machines_bundles_are_refused(self):
+        self.put(self.bundle("arm", "2.0", arch="arm64"))
+        self.assertEqual(self.refused(), "arm.raucb is for other machines (pleinair-arm64; this is pleinair-amd64).")
+
+    def test_other_files_of_that_name_are_refused(self):
+        with open(os.path.join(self.stick, "song.raucb"), "wb") as file:
+            file.write(b"ID3 " * 5000)
+        self.assertEqual(self.refused(), "song.raucb is no update.")
+
+    def test_a_version_that_was_taken_back_is_not_tried_again(self):
+        grub.write_block(self.block, FAILED="2.0")
+        self.put(self.good)
+        self.assertEqual(self.refused(), "good.raucb is version 2.0, which did not paint here and was taken back.")
+        self.put(self.bundle("mended", "2.0.1"))
+        self.assertEqual(self.install()[0], 0, "a newer one is")
+
+    def test_each_refusal_has_a_line(self):
+        self.put(self.bundle("old", "1.4"))
+        self.put(self.bundle("foreign", "2.0", key=self.other_key))
+        self.assertEqual(len(self.refused().splitlines()), 2)
+
+    def test_links_and_hidden_files_are_left_out(self):
+        os.symlink(self.good, os.path.join(self.stick, "link.raucb"))
+        self.put(self.good, "._good.raucb")
+        self.assertEqual(self.install(), (0, ""))
+
+    def test_an_installation_that_fails_is_said_and_changes_nothing(self):
+        self.rauc_answers("echo 'LastError: Installation error: Failed updating slot root.1: I/O error'; exit 1")
+        self.put(self.good)
+        status, notice = self.install()
+        self.assertEqual(status, 1)
+        self.assertEqual(notice, "Version 2.0 could not be installed: Installation error: Failed updating slot root.1: "
+                                 "I/O error\nVersion 1.5 goes on.")
+        self.assertFalse(self.has("restarted"))
+        self.assertEqual(grub.read_block(self.block).get("TRIAL"), "")
+
+    def test_a_failure_without_a_reason_is_said_in_its_last_words(self):
+        self.rauc_answers("echo 'no bus'; exit 1")
+        self.put(self.good)
+        self.assertEqual(self.install()[1], "Version 2.0 could not be installed: no bus\nVersion 1.5 goes on.")
+
+    def test_content_that_was_changed_is_found_when_it_is_read(self):
+        self.put(self.good)
+        path = os.path.join(self.stick, "good.raucb")
+        with open(path, "r+b") as file:
+            file.seek(5000)
+            file.write(b"changed")
+        unpacked = subprocess.run([f"{self.folder}/bin/rauc", "extract", path, f"{self.folder}/unpacked"],
+                                  capture_output=True, text=True)
+        self.assertNotEqual(unpacked.returncode, 0)
+        self.assertIn("payload is corrupted", unpacked.stderr)
+        unpacked = subprocess.run([f"{self.folder}/bin/rauc", "extract", self.good, f"{self.folder}/unpacked"],
+                                  capture_output=True, text=True)
+        self.assertEqual(unpacked.returncode, 0, unpacked.stderr)
+
+    def test_a_certificate_is_valid_on_machines_without_a_clock(self):
+        dates = subprocess.run(["openssl", "x509", "-in", f"{self.key}/update.crt", "-noout", "-dates"], check=True,
+                               capture_output=True, text=True).stdout
+        self.assertIn("notBefore=Jan  1 00:00:00 1970", dates)
+        self.assertIn("notAfter=Dec 31 23:59:59 9999", dates)
+
+    def test_a_key_is_not_overwritten(self):
+        again = subprocess.run([os.path.join(UPDATE, "make-key"), self.key], capture_output=True, text=True)
+        self.assertEqual(again.returncode, 1)
+        self.assertIn("is there already", again.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
