@@ -286,6 +286,7 @@ class LivePainting {
         .qualityLevels = job_.runtime.quality != qualityNames().front(),
         .overlay = job_.procedure != nullptr,
         .machine = job_.machine,
+        .doubtfulTags = procedure_ ? procedure_->doubtfulTags() : nullptr,
         .isCancelled = [this] { return isStopping_ || isSignalled_(); },
         .windows = outputs_.windowDisplay()};
     return std::make_unique<LivePainter>(options, formats, controls_, start,

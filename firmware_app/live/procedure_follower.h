@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -12,6 +13,7 @@
 #include "firmware_app/repair_station/live_procedure.h"
 #include "firmware_app/repair_station/seen_tags.h"
 #include "hal/pixel_format.h"
+#include "pipeline/overlay/tag_contradictions.h"
 
 namespace pleinair::app {
 
@@ -30,6 +32,8 @@ class ProcedureFollower {
   void makeOverlay(hal::FrameSize picture);
   /// Where the machine is in the scene.
   const MachinePlace& machine() const { return machine_; }
+  /// For each painter in turn, which adds what it finds.
+  const std::shared_ptr<overlay::DoubtfulTags>& doubtfulTags() const { return doubtfulTags_; }
 
   /// Handles what has happened since the last call. `isPainting`: frames flow, so that a still can
   /// be taken.
@@ -49,6 +53,7 @@ class ProcedureFollower {
   LiveInput& input_;
   Notify notify_;
   MachinePlace machine_;
+  std::shared_ptr<overlay::DoubtfulTags> doubtfulTags_ = std::make_shared<overlay::DoubtfulTags>();
   std::optional<LiveOverlay> overlay_;  ///< once the pictures' size is known
   std::string loggedStep_;
   std::optional<LiveProcedure::RecordEnd> end_;
