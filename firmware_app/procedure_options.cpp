@@ -52,8 +52,14 @@ void addPreview(CLI::App& procedure, ProcedurePreviewOptions& options,
       ->required()
       ->check(requirePngName)
       ->type_name("FILE");
-  command.add_option("--language", options.language, "the texts' language (default: its first)")
-      ->type_name("TAG");
+  CLI::Option* language =
+      command
+          .add_option("--language", options.language, "the texts' language (default: its first)")
+          ->type_name("TAG");
+  command
+      .add_flag("--nodes", options.nodes,
+                "draw every node of the model in place of the steps, with its name")
+      ->excludes(language);
   refuseEmptyValues(command);
   command.callback([&] { chosen = [&options] { return previewProcedure(options); }; });
 }

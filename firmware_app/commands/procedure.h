@@ -36,9 +36,10 @@ struct ProcedurePreviewOptions {
   std::filesystem::path folder;
   std::filesystem::path output;  ///< PNG
   std::string language;          ///< empty: the procedure's first
+  bool nodes = false;            ///< draw the model's nodes in place of the steps
 };
 
-/// Draws every step on one sheet, without a camera: `pleinair procedure preview`. Throws
+/// Draws every step, or every node of the model, on one sheet, without a camera: `pleinair procedure preview`. Throws
 /// hal::Failure and config::ConfigError. Returns the exit status: 0, or 128 + the signal that
 /// interrupted it, after which there is no sheet.
 int previewProcedure(const ProcedurePreviewOptions& options);

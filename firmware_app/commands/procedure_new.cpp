@@ -137,6 +137,10 @@ int newProcedure(const ProcedureNewOptions& options) {
   writeFile(options.folder / procedure::kProcedureFile, skeleton.toml);
   writeText(stdout, fmt::format("wrote {} steps: {}\n", skeleton.steps,
                                 (options.folder / procedure::kProcedureFile).string()));
+  writeText(stdout, fmt::format("what is likely wrong: pleinair procedure check {0}\n"
+                                "which node is which: pleinair procedure preview {0} --nodes "
+                                "--output nodes.png\n",
+                                options.folder.string()));
   if (!skeleton.leftOut.empty()) {
     spdlog::warn("{} nodes have no step, from {} on: a procedure has at most {} steps",
                  skeleton.leftOut.size(), skeleton.leftOut.front(), procedure::kMaxSteps);

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstddef>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -42,6 +44,23 @@ std::string stepLanguage(const ProcedurePreviewOptions& options, const Procedure
                       .remedy = fmt::format("one of {}", fmt::join(procedure.languages, ", "))});
 }
 
+/// A step for each name of a node, with all parts of that name.
+Procedure stepsOfNodes(const Procedure& procedure) {
+  std::map<std::string, std::vector<std::size_t>> nodes;
+  for (std::size_t i = 0; i < procedure.model->parts.size(); ++i) {
+    nodes[procedure.model->parts[i].name].push_back(i);
+  }
+  Procedure drawn = procedure;
+  drawn.steps.clear();
+  for (const auto& [name, parts] : nodes) {
+    procedure::StepText text{.title = name, .body = {}, .question = {}, .pictures = {}};
+    if (parts.size() > 1) text.body = fmt::format("×{}", parts.size());
+    drawn.steps.push_back(
+        {.id = name, .parts = parts, .text = {{procedure.languages.front(), std::move(text)}}});
+  }
+  return drawn;
+}
+
 /// As many columns as let the sheet be no higher than an image may be.
 int stepColumns(std::size_t steps, int tileHeight) {
   const int rows = std::max(1, hal::kMaxSidePixels / (tileHeight + kStepSheetGap));
@@ -59,7 +78,8 @@ int stepColumns(std::size_t steps, int tileHeight) {
 
 int previewProcedure(const ProcedurePreviewOptions& options) {
   const Interrupt interrupt;
-  const Procedure procedure = procedure::loadProcedure(options.folder);
+  const Procedure loaded = procedure::loadProcedure(options.folder);
+  const Procedure procedure = options.nodes ? stepsOfNodes(loaded) : loaded;
   const std::string language = stepLanguage(options, procedure);
   std::vector<NamedPath> read;
   for (const std::string& file : procedure.files) {
@@ -93,7 +113,8 @@ int previewProcedure(const ProcedurePreviewOptions& options) {
   const hal::Image sheet = present::labelledSheet(tiles, columns);
   orThrow(file.write(orThrow(hal::encodePng(sheet.view()))));
   orThrow(file.publish());
-  writeText(stdout, fmt::format("drew {} steps: {}\n", tiles.size(), options.output.string()));
+  writeText(stdout, fmt::format("drew {} {}: {}\n", tiles.size(), options.nodes ? "nodes" : "steps",
+                                options.output.string()));
   return 0;
 }
 

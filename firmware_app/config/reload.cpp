@@ -1,9 +1,15 @@
 #include "firmware_app/config/reload.h"
 
 #include <algorithm>
+#include <utility>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "config/config_error.h"
 #include "firmware_app/config/configuration_sections.h"
 #include "firmware_app/config/configured_parts.h"
+#include "hal/error.h"
 
 namespace pleinair::app {
 namespace {
@@ -46,6 +52,24 @@ Reload reloaded(const ConfigurationRequest& request, const Configuration& starte
                                             "style." + started.painting().style, reload.later);
     return reload;
   });
+}
+
+ReloadOutcome outcomeOf(const std::function<Reload()>& read) {
+  std::string problem;
+  try {
+    Reload next = read();
+    startParameters(next.painting);
+    const std::string later =
+        next.later.empty() ? ""
+                           : fmt::format("; at the next start: {}", fmt::join(next.later, ", "));
+    return {.painting = std::move(next.painting),
+            .notice = "the configuration was read again" + later};
+  } catch (const hal::Failure& error) {
+    problem = error.what();
+  } catch (const config::ConfigError& error) {
+    problem = error.what();
+  }
+  return {.painting = {}, .notice = "the last configuration stays in force: " + problem};
 }
 
 }  // namespace pleinair::app

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,5 +20,14 @@ struct Reload {
 /// what it made of it. Throws as Configuration and configuredPainting().
 Reload reloaded(const ConfigurationRequest& request, const Configuration& started,
                 const PaintingOptions& painting);
+
+/// What came of it, as it is told.
+struct ReloadOutcome {
+  std::optional<PaintingOptions> painting;  ///< nothing: the last ones stay in force
+  std::string notice;
+};
+
+/// Calls `read`, which may throw as reloaded() does, and checks what the painting starts with.
+ReloadOutcome outcomeOf(const std::function<Reload()>& read);
 
 }  // namespace pleinair::app

@@ -5,19 +5,16 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <exception>
-#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "config/config_error.h"
 #include "firmware_app/cli/compile_notice.h"
 #include "firmware_app/cli/exit_status.h"
 #include "firmware_app/cli/interrupt.h"
@@ -31,14 +28,13 @@
 #include "firmware_app/live/live_outputs.h"
 #include "firmware_app/live/live_painter.h"
 #include "firmware_app/live/live_reporter.h"
+#include "firmware_app/live/live_snapshots.h"
+#include "firmware_app/live/live_status.h"
 #include "firmware_app/live/machine_health.h"
+#include "firmware_app/live/procedure_follower.h"
 #include "firmware_app/live/runtime_rules.h"
 #include "firmware_app/live/service_reporter.h"
-#include "firmware_app/live/snapshot_saver.h"
-#include "firmware_app/live/status_page.h"
 #include "firmware_app/live/steady_painting.h"
-#include "firmware_app/live/thumbnail.h"
-#include "firmware_app/repair_station/live_overlay.h"
 #include "firmware_app/scene/scene_warnings.h"
 #include "hal/supervisor/camera_supervisor.h"
 #include "hal/supervisor/hotplug_monitor.h"
@@ -59,11 +55,8 @@ constexpr hal::Duration kReportInterval = 100ms;
 constexpr hal::Duration kWindowPatience = 1s;
 /// Part of the two seconds that ending may take; the rest is for the exit itself.
 constexpr hal::Duration kStopPatience = 1500ms;
-/// The least time for the record, where other threads have used that up.
-constexpr hal::Duration kRecordPatience = 300ms;
-
 /// The life of a live pipeline, from waiting for its camera to its closing line, with its status
-/// server, snapshots and reports. Main thread.
+/// server and reports. Main thread.
 class LivePainting {
  public:
   explicit LivePainting(const LiveJob& job)
@@ -74,10 +67,11 @@ class LivePainting {
         supervisor_(*job.selector, *job.clock, {}, job.request),
         pipeline_(supervisor_, *job.clock),
         outputs_(job, pipeline_, reporter_, openFrameLog()),
-        saver_(job.snapshots),
+        snapshots_(job.snapshots, controls_, input_, notifier()),
         health_(job.health, heatRules(job.runtime)),
+        status_(job, pipeline_, controls_, health_),
         steady_(job.steadyMark) {
-    if (job_.machine) machine_ = machinePlaceOf(job_.scene.models[*job_.machine]);
+    if (job.procedure != nullptr) procedure_.emplace(job, controls_, input_, notifier());
     if (!job.serviceManager) return;
     service_.emplace(*job.serviceManager);
     outputs_.renewWaitingAfter(service_->renewal());
@@ -110,8 +104,8 @@ class LivePainting {
     std::string why;
     hotplug_ = watchDevices([this](const hal::DeviceEvent& event) { devicesChanged(event); }, why);
     if (!hotplug_) spdlog::debug("no hot-plug events: {}", why);
-    waitingSince_ = began_;
-    if (job_.serveStatus) server_ = job_.serveStatus(statusPages());
+    status_.begin(began_);
+    if (job_.serveStatus) server_ = job_.serveStatus(status_.pages());
     if (awaitStream()) {
       startOutputs();
       if (awaitPainter()) paint();
@@ -142,9 +136,7 @@ class LivePainting {
   }
 
   /// Null until it is complete. Any thread.
-  runtime::LivePipeline* pipeline() {
-    return isPipelineMade_.load(std::memory_order_acquire) ? &pipeline_ : nullptr;
-  }
+  runtime::LivePipeline* pipeline() const { return status_.pipeline(); }
 
   bool isToEnd() const { return Interrupt::received() != 0 || input_.wantsToQuit() || startsAnew_; }
 
@@ -208,7 +200,7 @@ class LivePainting {
 
   void reportToService() {
     const auto painting = paintStatus();
-    const runtime::RuntimeStatus status = statusNow();
+    const runtime::RuntimeStatus status = status_.now();
     const bool isStreaming = status.camera.state == hal::CameraState::kStreaming;
     const std::vector<OutputProgress> progress = outputs_.progress();
     steady_.update(progress, job_.clock->now());
@@ -226,24 +218,12 @@ class LivePainting {
   /// Applies the parameters of the configuration as it is now; if it is wrong, the last ones stay.
   void reload() {
     if (service_) service_->reloading(job_.clock->now());
-    std::string problem;
-    try {
-      const Reload next = job_.reload();
-      input_.setParameters({next.painting.style, startParameters(next.painting)});
-      const std::string later =
-          next.later.empty() ? ""
-                             : fmt::format("; at the next start: {}", fmt::join(next.later, ", "));
-      notify("the configuration was read again" + later, true);
-    } catch (const hal::Failure& error) {
-      problem = error.what();
-    } catch (const config::ConfigError& error) {
-      problem = error.what();
+    const ReloadOutcome next = outcomeOf(job_.reload);
+    if (next.painting) {
+      input_.setParameters({next.painting->style, startParameters(*next.painting)});
     }
-    if (!problem.empty()) {
-      problem = "the last configuration stays in force: " + problem;
-      notify(problem, false);
-    }
-    if (service_) service_->reloaded(problem);
+    notify(next.notice, next.painting.has_value());
+    if (service_) service_->reloaded(next.painting ? "" : next.notice);
   }
 
   /// Returns false if a signal ended the wait.
@@ -288,59 +268,12 @@ class LivePainting {
       for (const std::string& notice : stalePartNotices(target)) spdlog::warn("{}", notice);
     }
     if (hal::Window* window = outputs_.window()) input_.openWindow(*window);
-    makeOverlay();
+    if (procedure_) procedure_->makeOverlay(outputs_.pictureSize());
     style_ = controls_.parameters()->style;
     pipeline_.makePaintStage([this](const auto& formats) { return makePainter(formats); },
                              paintRules(job_.runtime, stream_));
     threads_->startPainter();
-    isPipelineMade_.store(true, std::memory_order_release);
-  }
-
-  /// Any thread. Before the camera's first frame there are neither outputs nor a painter.
-  runtime::RuntimeStatus statusNow() {
-    runtime::RuntimeStatus status = pipelineStatus();
-    status.machine = health_.state();
-    status.siteOrigin = job_.siteOrigin;
-    status.siteProblem = job_.standingText;
-    if (job_.procedure != nullptr) status.procedure = job_.procedure->status();
-    return status;
-  }
-
-  runtime::RuntimeStatus pipelineStatus() {
-    if (pipeline() != nullptr) return pipeline_.status();
-    runtime::RuntimeStatus status{.uptime = job_.clock->now() - waitingSince_,
-                                  .camera = pipeline_.capture().status(),
-                                  .painting = {},
-                                  .outputs = {},
-                                  .ledger = pipeline_.ledger().counts()};
-    const std::optional<hal::Error>& cause = status.camera.cause;
-    status.camera.reason =
-        "waiting for a camera: " + (cause ? cause->message() : status.camera.reason);
-    return status;
-  }
-
-  StatusPages statusPages() {
-    return {.page =
-                [this] {
-                  return statusPage(statusNow(), controls_.parameters()->style, qualityNames());
-                },
-            .picture = [this] { return thumbnail(); },
-            .json = [this] { return runtime::statusJson(statusNow(), qualityNames()); },
-            .metrics = [this] { return runtime::statusMetrics(statusNow(), qualityNames()); },
-            .healthy = [this] { return statusNow().isHealthy(); }};
-  }
-
-  /// A small picture of what the first output shows, as a JPEG; empty where there is none yet. The
-  /// server's thread.
-  std::string thumbnail() {
-    if (pipeline() == nullptr) return {};
-    for (std::size_t i = 0; i < pipeline_.outputCount(); ++i) {
-      const runtime::OutputStage& output = pipeline_.output(i);
-      if (const auto frame = output.lastFrame()) {
-        return orThrow(thumbnailJpeg(*frame, output.format().quarterTurns));
-      }
-    }
-    return {};
+    status_.setComplete();
   }
 
   std::unique_ptr<runtime::FramePainter> makePainter(
@@ -357,9 +290,11 @@ class LivePainting {
         .qualityLevels = job_.runtime.quality != qualityNames().front(),
         .overlay = job_.procedure != nullptr,
         .machine = job_.machine,
+        .doubtfulTags = procedure_ ? procedure_->doubtfulTags() : nullptr,
         .isCancelled = [this] { return isStopping_ || isSignalled_(); },
         .windows = outputs_.windowDisplay()};
-    return std::make_unique<LivePainter>(options, formats, controls_, start, machine_);
+    return std::make_unique<LivePainter>(options, formats, controls_, start,
+                                         procedure_ ? procedure_->machine() : MachinePlace());
   }
 
   bool awaitPainter() {
@@ -393,8 +328,8 @@ class LivePainting {
     }
     updateWindow();
     attend();
-    handleSnapshots();
-    handleTuning();
+    snapshots_.update();
+    if (const auto text = input_.takeCommandLine()) notify(*text, true);
     report();
     if (stepped.empty()) {
       job_.clock->sleepUntil(wake);
@@ -411,74 +346,14 @@ class LivePainting {
     if (!drawn && pipeline_.outputCount() == 1) failure_ = drawn.error();
   }
 
-  void makeOverlay() {
-    if (job_.procedure == nullptr) return;
-    const scene::Model* machine =
-        job_.machine ? job_.scene.models[*job_.machine].model.get() : nullptr;
-    std::vector<int> cards;
-    for (const auto& [id, command] : job_.inputs.cards) cards.push_back(id);
-    overlay_.emplace(machine, job_.procedureFolder, outputs_.pictureSize(), job_.showsInset,
-                     std::move(cards));
-    controls_.setOverlay(overlay_->update(job_.procedure->shown(), job_.clock->now()));
-  }
-
-  /// Steps that keys have made, and stills that they want; before there is a painting, too.
+  /// Steps that inputs have made, before there is a painting, too.
   void followProcedure() {
-    if (job_.procedure == nullptr) return;
-    // A frame that is held is no evidence of what is done now.
-    const bool isHeld = input_.isPaused();
-    if (const auto tags = controls_.takeTags(); tags && !isHeld) {
-      input_.see(*tags);
-      job_.procedure->locate(poseQualityOf(machine_, *tags));
-    }
-    job_.procedure->poll();
-    if (hasBegun_ && !isHeld && job_.procedure->takeStillRequest()) controls_.requestStill();
-    if (auto still = controls_.takeStill()) {
-      job_.procedure->putStill(std::move(still->image), still->place);
-    }
-    while (const auto failure = job_.procedure->takeFailure()) {
-      notify(*failure, false);
-      if (overlay_) overlay_->notifyFailure(*failure, job_.clock->now());
-    }
-    while (const auto notice = job_.procedure->takeNotice()) {
-      notify(*notice, true);
-      if (overlay_) overlay_->notify(*notice, job_.clock->now());
-    }
-    if (overlay_) {
-      if (auto content = overlay_->update(job_.procedure->shown(), job_.clock->now())) {
-        controls_.setOverlay(std::move(content));
-      }
-    }
-    const runtime::ProcedureStatus status = job_.procedure->status();
-    if (std::exchange(shownStep_, status.step) == status.step) return;
+    if (!procedure_) return;
+    procedure_->update(hasBegun_);
+    const auto step = procedure_->takeStep();
+    if (!step) return;
     reporter_.interrupt();
-    spdlog::info("step {}: {}", status.step, job_.procedure->text());
-  }
-
-  void handleSnapshots() {
-    if (const auto saved = saver_.takeResult()) reportSnapshot(*saved);
-    // A second snapshot waits until the first one is on disk.
-    if (saver_.isBusy() || saveSnapshot()) return;
-    if (input_.takeSnapshotRequest()) controls_.requestSnapshot();
-  }
-
-  /// Begins to save a snapshot that was painted; returns false if there is none.
-  bool saveSnapshot() {
-    auto snapshot = controls_.takeSnapshot();
-    if (!snapshot) return false;
-    if (*snapshot) {
-      saver_.save(**std::move(snapshot));
-    } else {
-      notify(snapshot->error().message(), false);
-    }
-    return true;
-  }
-
-  /// Saves and reports the painted snapshots, at the end.
-  void finishSnapshots() {
-    do {
-      if (const auto saved = saver_.awaitResult()) reportSnapshot(*saved);
-    } while (saveSnapshot());
+    spdlog::info("{}", *step);
   }
 
   /// The last answers are on the disk before the program ends. Idempotent. Does not return if the
@@ -488,31 +363,18 @@ class LivePainting {
   }
 
   RecordEnd awaitRecord() {
-    if (job_.procedure == nullptr) return RecordEnd::kWritten;
-    if (recordEnd_) return *recordEnd_;
-    const auto now = std::chrono::steady_clock::now();
-    const hal::Duration left = stopsBy_.value_or(now + kStopPatience) - now;
-    recordEnd_ = job_.procedure->end(std::max<hal::Duration>(left, kRecordPatience));
-    while (const auto failure = job_.procedure->takeFailure()) notify(*failure, false);
-    while (const auto notice = job_.procedure->takeNotice()) notify(*notice, true);
-    return *recordEnd_;
-  }
-
-  void reportSnapshot(const hal::Result<std::filesystem::path>& saved) {
-    notify(saved ? "saved " + saved->string() : saved.error().message(), saved.has_value());
-  }
-
-  void handleTuning() {
-    if (const auto text = input_.takeLookFile()) {
-      reportSnapshot(saveLook(job_.snapshots, *text, std::time(nullptr)));
-    }
-    if (const auto text = input_.takeCommandLine()) notify(*text, true);
+    if (!procedure_) return RecordEnd::kWritten;
+    return procedure_->end(stopsBy_.value_or(std::chrono::steady_clock::now() + kStopPatience));
   }
 
   void notify(const std::string& text, bool isGood) {
     input_.notify(text);
     reporter_.interrupt();
     spdlog::log(isGood ? spdlog::level::info : spdlog::level::warn, "{}", text);
+  }
+
+  std::function<void(const std::string&, bool)> notifier() {
+    return [this](const std::string& text, bool isGood) { notify(text, isGood); };
   }
 
   void report() {
@@ -537,7 +399,7 @@ class LivePainting {
   void finish() {
     const hal::Duration elapsed = job_.clock->now() - began_;
     stopThreads();
-    finishSnapshots();
+    snapshots_.finish();
     outputs_.finish();
     writeFrameLog();
     if (!failure_ && !failures_.empty()) failure_ = failures_.front();
@@ -609,25 +471,21 @@ class LivePainting {
   runtime::LivePipeline pipeline_;
   hal::StreamFormat stream_;  ///< the camera's
   LiveOutputs outputs_;
-  SnapshotSaver saver_;
+  LiveSnapshots snapshots_;
   MachineHealth health_;
+  LiveStatus status_;
+  std::optional<ProcedureFollower> procedure_;
   std::optional<runtime::LiveThreads> threads_;
   std::unique_ptr<hal::HotplugMonitor> hotplug_;  ///< notifies supervisor, outputs and input
-  std::atomic<bool> isPipelineMade_ = false;      ///< outputs and paint stage exist
   std::unique_ptr<StatusServer> server_;          ///< reads the pipeline's status
   std::optional<ServiceReporter> service_;        ///< unset where no service manager listens
   SteadyMark steady_;
 
-  hal::TimePoint waitingSince_;  ///< set before the status server starts
   hal::TimePoint began_;
   hal::TimePoint reported_;
   std::string waitingCause_;
-  std::optional<LiveOverlay> overlay_;  ///< where there is a procedure
-  std::optional<RecordEnd> recordEnd_;
   std::optional<std::chrono::steady_clock::time_point> stopsBy_;
-  std::string shownStep_;  ///< of the procedure, in the log
-  MachinePlace machine_;   ///< of the procedure, in the scene
-  std::string style_;      ///< of the painter that was made, or is being made
+  std::string style_;  ///< of the painter that was made, or is being made
   const std::function<bool()> isSignalled_ = cancelledBySignal();
   std::atomic<bool> isStopping_ = false;
   std::vector<hal::Error> failures_;   ///< errors of outputs, at the end

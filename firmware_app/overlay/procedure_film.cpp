@@ -101,7 +101,8 @@ std::shared_ptr<const overlay::OverlayContent> ProcedureFilm::at(hal::Duration t
       std::max(0.0, hal::toSeconds(time) / std::max(options_.secondsPerStep, 1e-3)));
   const std::size_t index = std::min(number, steps_.size() - 1);
   if (shown_ != index) {
-    auto content = stepContent(steps_[index], *model_, options_.folder, output);
+    auto content = stepContent(steps_[index], *model_, options_.folder, output,
+                               stepInset(steps_[index], *model_, output.width));
     content.showsInset = options_.showsInset;
     content_ = std::make_shared<const overlay::OverlayContent>(std::move(content));
     shown_ = index;

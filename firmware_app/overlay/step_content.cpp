@@ -24,6 +24,11 @@ using procedure::Step;
 
 constexpr double kInsetShare = 0.36;  // of the output's width
 
+hal::FrameSize insetSize(int outputWidth) {
+  const int width = std::max(1, static_cast<int>(kInsetShare * outputWidth));
+  return {width, std::max(1, 3 * width / 4)};
+}
+
 PartLook lookOf(procedure::PartView view) {
   switch (view) {
     case procedure::PartView::kPlain:
@@ -109,22 +114,28 @@ void addLabel(const StepShown& shown, int width, OverlayContent& content) {
 
 OverlayContent stepContent(const StepShown& shown, const scene::Model& machine,
                            const std::filesystem::path& folder, hal::FrameSize output,
-                           const hal::Image* inset) {
+                           hal::Image inset) {
   OverlayContent content;
   addParts(shown, machine, content);
   addLabel(shown, output.width, content);
   content.panel = instructionPanel(shown, folder, output);
-  const int width = static_cast<int>(kInsetShare * output.width);
-  content.inset =
-      inset != nullptr
-          ? *inset
-          : modelPicture(machine, content.looks, content.ghosts, content.arrows,
-                         {width, std::max(1, 3 * width / 4)}, shown.procedure->uprightFromModel);
+  content.inset = std::move(inset);
   for (std::size_t i = 0; i < overlay::kDoubts; ++i) {
     const std::string text(wordsOf(static_cast<overlay::Doubt>(i), shown.language));
     if (!text.empty()) content.badges.at(i) = doubtBadge(text, output.width);
   }
   return content;
+}
+
+hal::Image stepInset(const StepShown& shown, const scene::Model& machine, int outputWidth) {
+  OverlayContent content;
+  addParts(shown, machine, content);
+  return modelPicture(machine, content.looks, content.ghosts, content.arrows,
+                      insetSize(outputWidth), shown.procedure->uprightFromModel);
+}
+
+hal::Image blankInset(int outputWidth) {
+  return hal::Image({.pixelFormat = hal::PixelFormat::kRgba8, .size = insetSize(outputWidth)});
 }
 
 }  // namespace pleinair::app

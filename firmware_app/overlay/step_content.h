@@ -24,11 +24,17 @@ struct StepShown {
 };
 
 /// The overlay of a step, for pictures of the size `output`: looks and ghosts of its parts, arrows,
-/// a label, the instruction, and the inset. `machine`: the model of the scene that the procedure is
-/// about, with the procedure's parts (machineIn()). `inset`: that of the same step, if it was made
-/// before; else it takes some 0.1 s. Any thread.
+/// a label, the instruction, and the inset `inset`: stepInset(), or blankInset() until that is
+/// made. `machine`: the model of the scene that the procedure is about, with the procedure's parts
+/// (machineIn()). Any thread.
 overlay::OverlayContent stepContent(const StepShown& shown, const scene::Model& machine,
                                     const std::filesystem::path& folder, hal::FrameSize output,
-                                    const hal::Image* inset = nullptr);
+                                    hal::Image inset);
+
+/// The step drawn from the model, without a camera, for pictures that are so wide: RGBA8. It takes
+/// some 0.1 s, many times what all else of the content does. Any thread.
+hal::Image stepInset(const StepShown& shown, const scene::Model& machine, int outputWidth);
+/// Nothing, in the size of stepInset(): its place is kept clear.
+hal::Image blankInset(int outputWidth);
 
 }  // namespace pleinair::app

@@ -23,6 +23,11 @@ bool hasSameParts(const scene::Model& a, const scene::Model& b) {
   return std::ranges::equal(a.parts, b.parts, {}, &scene::ModelPart::name, &scene::ModelPart::name);
 }
 
+template <class T>
+bool isReady(const std::future<T>& made) {
+  return made.valid() && made.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
 }  // namespace
 
 LiveOverlay::LiveOverlay(const scene::Model* machine, std::filesystem::path folder,
@@ -49,32 +54,62 @@ const std::string& LiveOverlay::Passing::at(hal::TimePoint now) {
   return text;
 }
 
+/// Whether the inset of the step was drawn.
+bool LiveOverlay::isDrawn(const StepShown& shown) const {
+  return !drawing_.valid() && drawn_ && isSameStep(*drawn_, shown);
+}
+
+/// Takes what the threads have made. Returns whether that is another content.
+bool LiveOverlay::takeMade() {
+  const bool isMade = isReady(making_);
+  if (isMade) content_ = making_.get();
+  if (isReady(drawing_)) inset_ = drawing_.get();
+  if (hasInset_ || making_.valid() || !isDrawn(last_)) return isMade;
+  auto whole = std::make_shared<overlay::OverlayContent>(*content_);
+  whole->inset = inset_;
+  content_ = std::move(whole);
+  return hasInset_ = true;
+}
+
 std::shared_ptr<const overlay::OverlayContent> LiveOverlay::update(StepShown shown,
                                                                    hal::TimePoint now) {
   const std::string& failure = failure_.at(now);
   const std::string& notice = notice_.at(now);
   shown.notice = failure + (failure.empty() || notice.empty() ? "" : "\n") + notice;
-  Content made;
-  if (making_.valid() && making_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-    made = content_ = making_.get();
+  if (!content_) {
+    last_ = std::move(shown);
+    drawn_ = last_;
+    inset_ = draw(last_);
+    hasInset_ = true;
+    return content_ = make(last_, inset_);
   }
+  const bool isNew = takeMade();
   // A change that comes meanwhile waits: the newest state is made next, not those in between.
-  if (making_.valid() || (last_ && isSame(*last_, shown))) return made;
-  const bool keepsInset = last_ && content_ && isSameStep(*last_, shown);
-  last_ = std::move(shown);
-  if (!content_) return content_ = make(*last_, nullptr);
-  making_ = std::async(std::launch::async,
-                       [this, step = *last_, before = keepsInset ? content_ : nullptr] {
-                         return make(step, before);
-                       });
-  return made;
+  if (!making_.valid() && !isSame(last_, shown)) {
+    last_ = std::move(shown);
+    hasInset_ = isDrawn(last_);
+    making_ =
+        std::async(std::launch::async,
+                   [this, step = last_, inset = hasInset_ ? inset_ : blankInset(output_.width)] {
+                     return make(step, inset);
+                   });
+  }
+  if (!drawing_.valid() && !isSameStep(*drawn_, last_)) {
+    drawn_ = last_;
+    drawing_ = std::async(std::launch::async, [this, step = last_] { return draw(step); });
+  }
+  return isNew ? content_ : nullptr;
 }
 
-/// Any thread. `before`: the same step's, whose inset is kept; null: another step's.
-LiveOverlay::Content LiveOverlay::make(const StepShown& shown, const Content& before) const {
+/// Any thread.
+hal::Image LiveOverlay::draw(const StepShown& shown) const {
+  return stepInset(shown, *shown.procedure->model, output_.width);
+}
+
+/// Any thread.
+LiveOverlay::Content LiveOverlay::make(const StepShown& shown, hal::Image inset) const {
   const scene::Model& parts = *shown.procedure->model;
-  overlay::OverlayContent content =
-      stepContent(shown, parts, folder_, output_, before ? &before->inset : nullptr);
+  overlay::OverlayContent content = stepContent(shown, parts, folder_, output_, std::move(inset));
   content.showsInset = showsInset_;
   content.cards = cards_;
   if (machine_ != nullptr && !hasSameParts(*machine_, parts)) {

@@ -9,14 +9,15 @@
 
 #include "firmware_app/overlay/step_content.h"
 #include "hal/clock.h"
+#include "hal/image.h"
 #include "hal/pixel_format.h"
 #include "pipeline/overlay/overlay_content.h"
 #include "pipeline/scene/models/model.h"
 
 namespace pleinair::app {
 
-/// Makes the overlay of a procedure's current step when it changes, on a thread of its own. Main
-/// thread.
+/// Makes the overlay of a procedure's current step when it changes, on threads of its own: the
+/// instruction and the marks at once, and the inset, which takes longer, after them. Main thread.
 class LiveOverlay {
  public:
   /// `machine`: the scene's model, which outlives this; null: there is none. `output`: size of the
@@ -29,20 +30,27 @@ class LiveOverlay {
   /// The same for a failure, such as a full disk, which stands above other texts for its time.
   void notifyFailure(const std::string& text, hal::TimePoint now);
   /// The overlay, once it is made, if it is another one than that of the last call; else null. A
-  /// new step takes some 0.1 s, a new text a few ms; the first call waits for it.
+  /// new step comes without its inset first, whose place stays clear, and with it some 0.1 s later;
+  /// of a new text the inset is the one before. The first call waits for all of it.
   std::shared_ptr<const overlay::OverlayContent> update(StepShown shown, hal::TimePoint now);
 
  private:
   using Content = std::shared_ptr<const overlay::OverlayContent>;
-  Content make(const StepShown& shown, const Content& before) const;
+  Content make(const StepShown& shown, hal::Image inset) const;
+  hal::Image draw(const StepShown& shown) const;
+  bool isDrawn(const StepShown& shown) const;
+  bool takeMade();
 
   const scene::Model* machine_;
   std::filesystem::path folder_;
   hal::FrameSize output_;
   bool showsInset_;
   std::vector<int> cards_;
-  std::optional<StepShown> last_;  ///< that was made, or is being made
+  StepShown last_;  ///< that was made, or is being made
   Content content_;
+  bool hasInset_ = false;           ///< the content that was made last, or is being made
+  std::optional<StepShown> drawn_;  ///< whose inset was drawn last, or is being drawn
+  hal::Image inset_;
   struct Passing {
     std::string text;
     hal::TimePoint ends;
@@ -50,7 +58,9 @@ class LiveOverlay {
   };
   Passing notice_;
   Passing failure_;
-  std::future<Content> making_;  ///< the last member: it uses others
+  // The last members: they use others.
+  std::future<Content> making_;
+  std::future<hal::Image> drawing_;
 };
 
 }  // namespace pleinair::app

@@ -77,6 +77,8 @@ struct PainterOptions {
   /// The model of the scene (index) that overlays are about; unset: there is only their
   /// instruction.
   std::optional<std::size_t> machine = std::nullopt;
+  /// What painters of this scene before have found of its tags, and this one finds; null: nothing.
+  std::shared_ptr<overlay::DoubtfulTags> doubtfulTags = nullptr;
   /// Called before each program that the constructor compiles, which takes up to 20 s without a
   /// shader cache in all: true ends it with a hal::Failure (kCancelled). Null: it cannot be
   /// cancelled.

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include <glm/common.hpp>
 
@@ -32,7 +33,8 @@ glm::dvec2 sizeOf(const Sprite& sprite) {
 }  // namespace
 
 OverlayRenderer::OverlayRenderer(const gpu::ShaderLibrary& library, const scene::Scene& scene,
-                                 std::optional<std::size_t> machine, hal::FrameSize output)
+                                 std::optional<std::size_t> machine, hal::FrameSize output,
+                                 std::shared_ptr<DoubtfulTags> doubtfulTags)
     : scene_(scene),
       machine_(machine),
       size_(output),
@@ -51,7 +53,7 @@ OverlayRenderer::OverlayRenderer(const gpu::ShaderLibrary& library, const scene:
   for (std::size_t i = 0; i < model().parts.size(); ++i) shapes_.push_back(shapeOf(model(), i));
   boxes_.resize(shapes_.size());
   hidden_.resize(shapes_.size());
-  contradictions_.emplace(scene, *machine_);
+  contradictions_.emplace(scene, *machine_, std::move(doubtfulTags));
 }
 
 void OverlayRenderer::reset() {

@@ -55,10 +55,11 @@ struct OverlayState {
 class OverlayRenderer {
  public:
   /// `machine`: index of the model in the scene; nothing: there is only the instruction and the
-  /// inset. `library` has gpu::gpuShaders(),
-  /// gpu::sceneShaders() and gpu::overlayShaders().
+  /// inset. `library` has gpu::gpuShaders(), gpu::sceneShaders() and gpu::overlayShaders().
+  /// `doubtfulTags`: what another renderer of the scene has found; null: nothing.
   OverlayRenderer(const gpu::ShaderLibrary& library, const scene::Scene& scene,
-                  std::optional<std::size_t> machine, hal::FrameSize output);
+                  std::optional<std::size_t> machine, hal::FrameSize output,
+                  std::shared_ptr<DoubtfulTags> doubtfulTags);
 
   std::optional<std::size_t> machine() const { return machine_; }
   /// Takes another content, or none; the same one costs nothing. Allocates. True if it is another.

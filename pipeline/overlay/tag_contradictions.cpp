@@ -1,6 +1,7 @@
 #include "pipeline/overlay/tag_contradictions.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -27,19 +28,24 @@ bool isInWorld(const scene::Scene& scene, std::optional<int> tagId) {
 
 }  // namespace
 
-TagContradictions::TagContradictions(const scene::Scene& scene, std::size_t machine)
+TagContradictions::TagContradictions(const scene::Scene& scene, std::size_t machine,
+                                     std::shared_ptr<DoubtfulTags> kept)
     : scene_(scene),
       machineTag_(scene.models.at(machine).tagId),
       isPlacedByWorld_(isInWorld(scene, machineTag_)),
-      isDoubtful_(scene.tags.size(), 0) {
+      known_(kept ? std::move(kept) : std::make_shared<DoubtfulTags>()) {
+  if (known_->isDoubtful.size() != scene.tags.size()) {
+    *known_ = {.isDoubtful = std::vector<std::uint8_t>(scene.tags.size())};
+  }
   agree_.reserve(scene.tags.size());
   differ_.reserve(scene.tags.size());
 }
 
 bool TagContradictions::update(const tracking::TrackingResult& tracked) {
+  std::vector<std::uint8_t>& isDoubtful = known_->isDoubtful;
   const bool hasWorld =
       tracked.cameraFromWorld && tracked.worldSource == tracking::PoseSource::kSeen;
-  if (!hasWorld) return isMachineDoubtful_;
+  if (!hasWorld) return known_->isMachineDoubtful;
   agree_.clear();
   differ_.clear();
   bool isByOwnTag = false;
@@ -51,18 +57,18 @@ bool TagContradictions::update(const tracking::TrackingResult& tracked) {
     if (tag.source != tracking::PoseSource::kSeen) continue;
     (agrees ? agree_ : differ_).push_back(static_cast<std::size_t>(marker - scene_.tags.data()));
   }
-  if (agree_.empty()) return isMachineDoubtful_;
+  if (agree_.empty()) return known_->isMachineDoubtful;
   const bool hasMajority = agree_.size() > 1;
-  for (const std::size_t tag : differ_) isDoubtful_[tag] = 1;
+  for (const std::size_t tag : differ_) isDoubtful[tag] = 1;
   for (const std::size_t tag : agree_) {
-    if (hasMajority) isDoubtful_[tag] = 0;
-    if (!hasMajority && !differ_.empty()) isDoubtful_[tag] = 1;
+    if (hasMajority) isDoubtful[tag] = 0;
+    if (!hasMajority && !differ_.empty()) isDoubtful[tag] = 1;
   }
   // The machine's own tag places it where it does not fit, else the world does.
   const bool isWorldDoubtful =
-      std::ranges::all_of(agree_, [&](std::size_t tag) { return isDoubtful_[tag] != 0; });
-  isMachineDoubtful_ = isByOwnTag || (isPlacedByWorld_ && isWorldDoubtful);
-  return isMachineDoubtful_;
+      std::ranges::all_of(agree_, [&](std::size_t tag) { return isDoubtful[tag] != 0; });
+  known_->isMachineDoubtful = isByOwnTag || (isPlacedByWorld_ && isWorldDoubtful);
+  return known_->isMachineDoubtful;
 }
 
 }  // namespace pleinair::overlay

@@ -159,19 +159,26 @@ class ProcedureReader {
     });
     if (!isSound) return false;
     for (const TomlTable& table : tables) {
-      isSound = tryTo([&] { procedure.steps.push_back(readStepId(table, procedure)); }) && isSound;
-    }
-    if (!isSound) {
-      procedure.steps.clear();
-      return false;
+      const bool isNamed = tryTo([&] { procedure.steps.push_back(readStepId(table, procedure)); });
+      // Its place is kept, and other mistakes are found, too.
+      if (!isNamed) procedure.steps.push_back({.id = wrongIdOf(table)});
+      isSound = isNamed && isSound;
     }
     for (std::size_t i = 0; i < tables.size(); ++i) {
-      isSound = tryTo([&] { readStep(tables[i], procedure, i); }) && isSound;
+      const std::size_t before = reading_.faults.size();
+      if (!readStep(tables[i], procedure, i, reading_.faults)) unknownChecks_.insert(i);
+      isSound = reading_.faults.size() == before && isSound;
       const auto& check = procedure.steps[i].check;
       if (!check || check->kind != CheckKind::kCompare) continue;
       isSound = tryTo([&] { checkTemplate(tables[i].table("check"), *check); }) && isSound;
     }
     return isSound;
+  }
+
+  /// What a step with a mistake in its id is called by texts; empty where that is another step's.
+  std::string wrongIdOf(const TomlTable& table) const {
+    std::string id = table.isString("id") ? table.string("id") : "";
+    return reading_.procedure.findStep(id) ? "" : id;
   }
 
   void checkTemplate(const TomlTable& table, const Check& check) {
@@ -187,7 +194,9 @@ class ProcedureReader {
   void readTexts() {
     Procedure& procedure = reading_.procedure;
     std::vector<std::string> ids;
-    for (const Step& step : procedure.steps) ids.push_back(step.id);
+    for (const Step& step : procedure.steps) {
+      if (!step.id.empty()) ids.push_back(step.id);
+    }
     for (const std::string& language : procedure.languages) readText(language, ids);
     for (const std::string& language : sources_.languages()) {
       if (std::ranges::find(procedure.languages, language) != procedure.languages.end()) continue;
@@ -207,6 +216,7 @@ class ProcedureReader {
       return;
     }
     addFile(language + ".md");
+    if (procedure.steps.empty()) return;  // every heading would be a mistake
     InstructionText text = readInstructionText(*markdown, file, ids, reading_.faults);
     procedure.title[language] = text.title;
     for (const auto& [picture, line] : text.pictures) {
@@ -216,7 +226,9 @@ class ProcedureReader {
         addFile(picture);
       }
     }
-    for (Step& step : procedure.steps) {
+    for (std::size_t i = 0; i < procedure.steps.size(); ++i) {
+      Step& step = procedure.steps[i];
+      if (step.id.empty()) continue;
       const auto found = text.steps.find(step.id);
       if (found == text.steps.end()) {
         refuse(file, 0, fmt::format("has no text for step \"{}\"", step.id),
@@ -224,7 +236,7 @@ class ProcedureReader {
         continue;
       }
       step.text[language] = std::move(found->second);
-      checkQuestion(step, language, file, text.lines[step.id]);
+      if (!unknownChecks_.contains(i)) checkQuestion(step, language, file, text.lines[step.id]);
     }
   }
 
@@ -257,6 +269,7 @@ class ProcedureReader {
   const std::string& name_;
   ProcedureSources& sources_;
   ProcedureReading reading_;
+  std::set<std::size_t> unknownChecks_;  ///< steps with a mistake in their check
 };
 
 }  // namespace

@@ -59,6 +59,17 @@ std::vector<std::size_t> partsNamed(const scene::Model& model, std::string_view 
   return parts;
 }
 
+/// CAD programs add numbers to names: the beginning of one may be meant.
+std::string unknownNodeText(const std::string& name, std::span<const std::string> known) {
+  const auto beginsSo = [&](const std::string& each) { return each.starts_with(name); };
+  const bool isBeginning = !name.empty() && std::ranges::any_of(known, beginsSo);
+  const std::vector<std::string> meant = isBeginning ? std::vector{name + "*"}
+                                         : name.ends_with('*')
+                                             ? patternsOf(known)
+                                             : std::vector<std::string>(known.begin(), known.end());
+  return "the model has no node " + config::foundText(name, meant);
+}
+
 std::vector<std::size_t> readParts(const TomlTable& table, std::string_view key,
                                    const Procedure& procedure) {
   const auto names = table.optionalStrings(key, {1, 1000}, "an array of nodes of the model");
@@ -68,9 +79,7 @@ std::vector<std::size_t> readParts(const TomlTable& table, std::string_view key,
     const std::vector<std::size_t> found = partsNamed(*procedure.model, name);
     if (found.empty()) {
       const std::vector<std::string> known = nodeNames(*procedure.model);
-      const std::vector<std::string> meant = name.ends_with('*') ? patternsOf(known) : known;
-      throw table.error(key, "the model has no node " + config::foundText(name, meant),
-                        shortListText(known));
+      throw table.error(key, unknownNodeText(name, known), shortListText(known));
     }
     parts.insert(parts.end(), found.begin(), found.end());
   }
@@ -120,9 +129,7 @@ void forNamedParts(const TomlTable& table, const Procedure& procedure, Take take
         procedure.model ? partsNamed(*procedure.model, key) : std::vector<std::size_t>{};
     if (procedure.model && parts.empty()) {
       const std::vector<std::string> known = nodeNames(*procedure.model);
-      const std::vector<std::string> meant = key.ends_with('*') ? patternsOf(known) : known;
-      throw table.error(key, "the model has no node " + config::foundText(key, meant),
-                        shortListText(known));
+      throw table.error(key, unknownNodeText(key, known), shortListText(known));
     }
     take(key, parts);
   }
@@ -254,21 +261,32 @@ Step readStepId(const TomlTable& table, const Procedure& procedure) {
   return step;
 }
 
-void readStep(const TomlTable& table, Procedure& procedure, std::size_t index) {
+bool readStep(const TomlTable& table, Procedure& procedure, std::size_t index,
+              std::vector<config::ConfigError>& faults) {
   Step& step = procedure.steps[index];
-  step.parts = readParts(table, "parts", procedure);
-  step.removes = readParts(table, "removes", procedure);
-  step.fits = readParts(table, "fits", procedure);
-  step.tools = readReferences(table, "tools", procedure.tools);
-  step.warnings = readReferences(table, "warnings", procedure.warnings);
-  readViews(table, procedure, step);
-  step.torque = readStepTorque(table);
-  step.check = readCheck(table);
-  readNext(table, procedure, index, step);
+  const auto tryTo = [&](const auto& action) {
+    try {
+      action();
+      return true;
+    } catch (const config::ConfigError& error) {
+      faults.push_back(error);
+      return false;
+    }
+  };
+  tryTo([&] { step.parts = readParts(table, "parts", procedure); });
+  tryTo([&] { step.removes = readParts(table, "removes", procedure); });
+  tryTo([&] { step.fits = readParts(table, "fits", procedure); });
+  tryTo([&] { step.tools = readReferences(table, "tools", procedure.tools); });
+  tryTo([&] { step.warnings = readReferences(table, "warnings", procedure.warnings); });
+  tryTo([&] { readViews(table, procedure, step); });
+  tryTo([&] { step.torque = readStepTorque(table); });
+  const bool isCheckKnown = tryTo([&] { step.check = readCheck(table); });
+  if (isCheckKnown) tryTo([&] { readNext(table, procedure, index, step); });
   // Without parts of its own, a step shows what it moves.
   if (!table.has("parts")) {
     std::ranges::set_union(step.removes, step.fits, std::back_inserter(step.parts));
   }
+  return isCheckKnown;
 }
 
 }  // namespace pleinair::procedure

@@ -160,6 +160,21 @@ TEST_F(RepairStation, ANewProcedureIsCheckedAndPreviewed) {
   EXPECT_GT(reservedPercent(picture("sheet.png")), 0.5);
 }
 
+TEST_F(RepairStation, TheSheetOfNodesShowsWhichIsWhich) {
+  write("two/two.obj",
+        "o plate\nv 0 0 0\nv 90 0 0\nv 90 0 60\nv 0 0 60\nf 1 4 3 2\n"
+        "o pin\nv 40 0 30\nv 50 0 30\nv 45 50 30\nf 5 6 7\n");
+  const ProgramRun made = runProgram(
+      {"procedure", "new", path("two"), "--model", path("two/two.obj"), "--units", "mm"});
+  ASSERT_EQ(made.status, 0) << made.error;
+  EXPECT_THAT(made.out, HasSubstr("--nodes"));
+  const ProgramRun drawn =
+      runProgram({"procedure", "preview", path("two"), "--nodes", "--output", path("nodes.png")});
+  ASSERT_EQ(drawn.status, 0) << drawn.error;
+  EXPECT_THAT(drawn.out, HasSubstr("drew 2 nodes"));
+  EXPECT_GT(reservedPercent(picture("nodes.png")), 0.5);
+}
+
 TEST_F(RepairStation, ARenamedNodeIsNamedWithFileAndLine) {
   writeProcedure();
   std::string toml = textOf(path("work/procedure.toml"));

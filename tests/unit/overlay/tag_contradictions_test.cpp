@@ -1,5 +1,7 @@
 #include "pipeline/overlay/tag_contradictions.h"
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -72,6 +74,29 @@ TEST_F(TagContradictionsTest, TheMachinesOwnTagPlacesItWhateverOthersAgreeOn) {
   EXPECT_TRUE(see({1, 2}, {0}));
   EXPECT_TRUE(see({1, 2}, {}, {0})) << "a hand has covered it, and its pose is carried";
   EXPECT_FALSE(see({1, 2})) << "by the others";
+}
+
+TEST_F(TagContradictionsTest, AreRememberedByTheNextPainter) {
+  const auto kept = std::make_shared<DoubtfulTags>();
+  contradictions_.emplace(scene_, 0, kept);
+  EXPECT_TRUE(see({0}, {1}));
+  contradictions_.emplace(scene_, 0);
+  EXPECT_FALSE(see({1})) << "it knows nothing of what was before";
+  contradictions_.emplace(scene_, 0, kept);
+  EXPECT_TRUE(see({1}));
+  EXPECT_FALSE(see({1, 2})) << "it was put right";
+  contradictions_.emplace(scene_, 0, kept);
+  EXPECT_FALSE(see({1}));
+  EXPECT_TRUE(see({0}));
+}
+
+TEST_F(TagContradictionsTest, OfAnotherSceneNothingIsRemembered) {
+  const auto kept = std::make_shared<DoubtfulTags>();
+  contradictions_.emplace(scene_, 0, kept);
+  EXPECT_TRUE(see({0}, {1}));
+  scene_.tags.push_back({.id = 3, .edgeMetres = 0.05, .worldFromTag = at(0.6)});
+  contradictions_.emplace(scene_, 0, kept);
+  EXPECT_FALSE(see({0}));
 }
 
 TEST_F(TagContradictionsTest, AMachineWhoseTagHasNoPlaceIsPlacedByThatAlone) {

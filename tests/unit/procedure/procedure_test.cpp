@@ -1,5 +1,8 @@
 #include "pipeline/procedure/procedure.h"
 
+#include <algorithm>
+#include <string>
+
 #include <gmock/gmock.h>
 
 #include "tests/unit/procedure/procedure_texts.h"
@@ -101,6 +104,8 @@ INSTANTIATE_TEST_SUITE_P(
                     "\"cover\"?), allowed: plug, cover, bolt_1, bolt_2, shaft"},
         StepMistake{"parts = [\"blot_*\"]",
                     "the model has no node \"blot_*\" (did you mean \"bolt_*\"?)"},
+        StepMistake{"parts = [\"bolt\"]",
+                    "the model has no node \"bolt\" (did you mean \"bolt*\"?)"},
         StepMistake{
             "tools = [\"hax\"]",
             "p.toml:10: step[0].tools: found \"hax\" (did you mean \"hex\"?), allowed: hex"},
@@ -141,6 +146,30 @@ TEST(ProcedureMistakes, EveryMistakeIsListed) {
   EXPECT_THAT(messages, HasSubstr("en.md:4: heading: there is no step \"c\""));
   EXPECT_THAT(messages, HasSubstr("en.md: has no text for step \"b\", allowed: \"## b: Title\""));
   EXPECT_THAT(messages, HasSubstr("en.md:2: step \"a\" has a question but no check"));
+}
+
+TEST(ProcedureMistakes, AllOfAStepAreListed) {
+  const std::string messages = messagesOf(
+      readSteps("[[step]]\nid = \"a\"\nparts = [\"y\"]\ntools = [\"x\"]\ntorque = \"5\"\n"
+                "check = { kind = \"value\", unit = \"mm\" }\ngoto = { high = \"end\" }\n",
+                {"a"}));
+  for (const char* key : {"parts", "tools", "torque", "check.min"}) {
+    EXPECT_THAT(messages, HasSubstr(std::string("step[0].") + key));
+  }
+  EXPECT_EQ(std::ranges::count(messages, '\n'), 4)
+      << "what follows from them is none: " << messages;
+}
+
+TEST(ProcedureMistakes, AWrongIdHidesNoOthers) {
+  const std::string messages = messagesOf(readSteps(
+      "[[step]]\nid = \"No good\"\nparts = [\"y\"]\n[[step]]\nid = \"b\"\ntools = [\"x\"]\n"
+      "[[step]]\nid = \"b\"\ntorque = \"5\"\n",
+      {"No good", "b"}, ""));
+  for (const char* key :
+       {"step[0].id", "step[0].parts", "step[1].tools", "step[2].id: \"b\" is", "step[2].torque"}) {
+    EXPECT_THAT(messages, HasSubstr(key));
+  }
+  EXPECT_EQ(std::ranges::count(messages, '\n'), 5) << "the texts are right: " << messages;
 }
 
 TEST(ProcedureMistakes, OfTexts) {

@@ -26,6 +26,18 @@ TEST(ShippedProcedure, ShowsAPartInEveryStep) {
   for (const Step& step : procedure.steps) EXPECT_FALSE(step.parts.empty()) << step.id;
 }
 
+/// Energy is isolated before work, and nobody gets past that by "no".
+TEST(ShippedProcedure, BeginsByLockingTheDriveOut) {
+  const Procedure procedure = loadProcedure(kFolder);
+  const Step& first = procedure.steps.front();
+  EXPECT_EQ(first.id, "lock_out");
+  ASSERT_EQ(first.checkKind(), CheckKind::kYesNo);
+  EXPECT_FALSE(first.next.contains(Outcome::kNo)) << "it keeps the step";
+  EXPECT_FALSE(first.tools.empty()) << "the lock";
+  ASSERT_EQ(first.warnings.size(), 1U);
+  EXPECT_EQ(procedure.warnings[first.warnings.front()].level, WarningLevel::kDanger);
+}
+
 TEST(ShippedProcedure, FitsInLessThan150Lines) {
   std::ptrdiff_t lines = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {

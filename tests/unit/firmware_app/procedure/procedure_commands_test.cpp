@@ -109,11 +109,11 @@ TEST_F(ProcedureCommands, AModelOfFiveHundredPartsIsTaken) {
   const procedure::Procedure procedure = procedure::loadProcedure(made);
   EXPECT_EQ(procedure.model->parts.size(), 500U);
   EXPECT_EQ(procedure.steps.size(), 500U);
+  const StepShown last{.procedure = std::make_shared<const procedure::Procedure>(procedure),
+                       .step = 499,
+                       .language = "en"};
   const overlay::OverlayContent content =
-      stepContent({.procedure = std::make_shared<const procedure::Procedure>(procedure),
-                   .step = 499,
-                   .language = "en"},
-                  *procedure.model, made, {640, 480});
+      stepContent(last, *procedure.model, made, {640, 480}, stepInset(last, *procedure.model, 640));
   EXPECT_EQ(content.looks.size(), 500U);
   EXPECT_EQ(content.looks.back(), overlay::PartLook::kFocus);
   EXPECT_GT(content.inset.size().width, 0);

@@ -24,12 +24,30 @@ class LiveOverlayTest : public testing::Test {
             .request = request,
             .notice = {}};
   }
+  using Content = std::shared_ptr<const overlay::OverlayContent>;
+
   /// Waits for what is being made.
-  std::shared_ptr<const overlay::OverlayContent> made(const StepShown& shown) {
+  Content made(const StepShown& shown) {
     for (;;) {
       if (auto content = overlay_.update(shown, now_)) return content;
       std::this_thread::yield();
     }
+  }
+  /// Waits for all of a new step.
+  Content madeWhole(const StepShown& shown) {
+    Content content;
+    do {
+      content = made(shown);
+    } while (isBlank(content->inset));
+    return content;
+  }
+
+  static bool isBlank(const hal::Image& image) {
+    for (int y = 0; y < image.size().height; ++y) {
+      const auto row = image.view().row(0, y);
+      if (std::ranges::any_of(row, [](std::uint8_t each) { return each != 0; })) return false;
+    }
+    return true;
   }
 
   static bool isSame(const hal::Image& a, const hal::Image& b) {
@@ -51,20 +69,36 @@ TEST_F(LiveOverlayTest, TheFirstIsThereAtOnceAndOthersOnceTheyAreMade) {
   ASSERT_NE(first, nullptr);
   EXPECT_EQ(first->cards, (std::vector<int>{570, 571}));
   EXPECT_EQ(overlay_.update(step(0), now_), nullptr) << "the same";
-  const auto second = made(step(1));
+  const auto second = madeWhole(step(1));
   EXPECT_NE(second->looks, first->looks);
   EXPECT_EQ(overlay_.update(step(1), now_), nullptr);
+}
+
+TEST_F(LiveOverlayTest, TheInstructionDoesNotWaitForTheInset) {
+  const Content first = overlay_.update(step(0), now_);
+  ASSERT_NE(first, nullptr);
+  EXPECT_FALSE(isBlank(first->inset));
+  const Content second = made(step(1));
+  EXPECT_FALSE(isSame(second->panel, first->panel));
+  EXPECT_NE(second->looks, first->looks);
+  EXPECT_TRUE(isBlank(second->inset)) << "it takes many times as long";
+  EXPECT_EQ(second->inset.size(), first->inset.size()) << "its place stays clear of labels";
+  const Content whole = made(step(1));
+  EXPECT_FALSE(isBlank(whole->inset));
+  EXPECT_TRUE(isSame(whole->panel, second->panel));
+  EXPECT_EQ(whole->looks, second->looks);
 }
 
 TEST_F(LiveOverlayTest, OfStepsThatChangeFasterTheNewestIsShownInTheEnd) {
   ASSERT_NE(overlay_.update(step(0), now_), nullptr);
   for (std::size_t i = 1; i < 5; ++i) overlay_.update(step(i), now_);
-  std::shared_ptr<const overlay::OverlayContent> last;
+  Content last;
   const auto expected =
       LiveOverlay(procedure_->model.get(), kGearbox, {320, 240}, false, {}).update(step(4), now_);
   do {
-    last = made(step(4));
+    last = madeWhole(step(4));
   } while (last->looks != expected->looks);
+  EXPECT_TRUE(isSame(last->inset, expected->inset));
   EXPECT_EQ(overlay_.update(step(4), now_), nullptr);
 }
 
