@@ -164,11 +164,11 @@ struct GigeRelay::Impl {
       return;
     } else {
       ++counts.passed;
-      send(stream, bytes, streamHost);
+      send(sender, bytes, streamHost);
     }
     if (!held) return;
     ++counts.passed;
-    send(stream, *std::exchange(held, std::nullopt), streamHost);
+    send(sender, *std::exchange(held, std::nullopt), streamHost);
   }
 
   void sendAgain(std::uint32_t frame, std::uint32_t first, std::uint32_t last) {
@@ -176,7 +176,7 @@ struct GigeRelay::Impl {
     for (std::uint32_t packet = first; packet <= last; ++packet) {
       const auto found = memory.find({frame, packet});
       if (found == memory.end() || draw(chance) < faults.lost) continue;
-      send(stream, found->second, streamHost);
+      send(sender, found->second, streamHost);
       if (missing.erase({frame, packet}) > 0) ++counts.recovered;
     }
   }
@@ -192,8 +192,8 @@ struct GigeRelay::Impl {
   sockaddr_in camera;
   hal::FileDescriptor control = boundSocket(kAddress, kControlPort);  ///< towards the program
   hal::FileDescriptor answers = boundSocket("127.0.0.1", 0);          ///< towards the camera
-  hal::FileDescriptor stream =
-      boundSocket("127.0.0.1", 0);  ///< from the camera, and to the program
+  hal::FileDescriptor stream = boundSocket("127.0.0.1", 0);           ///< from the camera
+  hal::FileDescriptor sender = boundSocket(kAddress, 0);  ///< its packets to the program
   sockaddr_in host{}, streamHost{};
   bool asksForCapabilities = false;
   std::atomic<bool> isUnplugged = false;
@@ -215,7 +215,12 @@ GigeRelay::GigeRelay(LinkFaults faults, const std::string& camera)
 GigeRelay::~GigeRelay() = default;
 
 bool GigeRelay::isRunning() const {
-  return impl_->control && impl_->answers && impl_->stream;
+  return impl_->control && impl_->answers && impl_->stream && impl_->sender;
+}
+
+void GigeRelay::sendAlien(std::span<const std::uint8_t> bytes) {
+  const std::scoped_lock lock(impl_->mutex);
+  send(impl_->sender, Bytes(bytes.begin(), bytes.end()), impl_->streamHost);
 }
 
 void GigeRelay::setUnplugged(bool isUnplugged) {

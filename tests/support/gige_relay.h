@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 
 namespace pleinair::support {
@@ -41,6 +42,8 @@ class GigeRelay {
   bool isRunning() const;
   /// Pulls the cable or plugs it in: meanwhile nothing passes in any direction. Any thread.
   void setUnplugged(bool isUnplugged);
+  /// Sends the program's stream a packet that the camera has not made. Any thread.
+  void sendAlien(std::span<const std::uint8_t> bytes);
   /// Any thread.
   RelayCounts counts() const;
 

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <cstring>
+#include <optional>
 #include <string_view>
 #include <utility>
+
+#include "hal/cameras/aravis/packet_filter.h"
 
 namespace pleinair::hal::aravis {
 namespace {
@@ -33,6 +37,31 @@ std::uint64_t infoOf(ArvStream* stream, const char* name) {
     }
   }
   return 0;  // USB counts no packets
+}
+
+/// IPv4, in the host's byte order.
+std::optional<std::uint32_t> addressOf(ArvCamera* camera) {
+  GSocketAddress* const device =
+      arv_gv_device_get_device_address(ARV_GV_DEVICE(arv_camera_get_device(camera)));
+  if (!G_IS_INET_SOCKET_ADDRESS(device)) return std::nullopt;
+  GInetAddress* const address = g_inet_socket_address_get_address(G_INET_SOCKET_ADDRESS(device));
+  if (g_inet_address_get_family(address) != G_SOCKET_FAMILY_IPV4) return std::nullopt;
+  std::uint32_t bytes = 0;
+  std::memcpy(&bytes, g_inet_address_to_bytes(address), sizeof bytes);
+  return GUINT32_FROM_BE(bytes);
+}
+
+/// Counts nothing for USB, or where the camera does not tell the sizes.
+MissingPackets packetsOf(ArvCamera* camera) {
+  if (arv_camera_is_gv_device(camera) == 0) return {};
+  GlibError error;
+  const guint packet = arv_camera_gv_get_packet_size(camera, error.out());
+  if (error.isSet()) return {};
+  const guint payload = arv_camera_get_payload(camera, error.out());
+  if (error.isSet()) return {};
+  const char* const longIds = arv_camera_get_string(camera, "GevGVSPExtendedIDMode", error.out());
+  return {payload, packet,
+          !error.isSet() && longIds != nullptr && std::string_view(longIds) == "On"};
 }
 
 /// Aravis asserts that there is an image where one is asked for.
@@ -87,11 +116,22 @@ std::optional<Duration> ChunkTimes::of(ArvBuffer* buffer) const {
 
 ArvStreamOfCamera::ArvStreamOfCamera(Object<ArvCamera> camera, Object<ArvStream> stream,
                                      std::shared_ptr<const ChunkTimes> chunkTimes)
-    : camera_(std::move(camera)), stream_(std::move(stream)), chunkTimes_(std::move(chunkTimes)) {}
+    : camera_(std::move(camera)),
+      stream_(std::move(stream)),
+      chunkTimes_(std::move(chunkTimes)),
+      missing_(packetsOf(camera_.get())) {}
 
 ArvStreamOfCamera::~ArvStreamOfCamera() {
   GlibError error;
   arv_camera_stop_acquisition(camera_.get(), error.out());  // fails if it is gone
+}
+
+void ArvStreamOfCamera::guard() {
+  if (!missing_.counts() || !ARV_IS_GV_STREAM(stream_.get())) return;
+  const std::optional<std::uint32_t> address = addressOf(camera_.get());
+  if (!address) return;
+  filterPackets(arv_gv_stream_get_port(ARV_GV_STREAM(stream_.get())),
+                {.camera = *address, .perFrame = static_cast<std::uint32_t>(missing_.perFrame())});
 }
 
 void ArvStreamOfCamera::add(std::vector<std::span<std::uint8_t>> buffers) {
@@ -114,6 +154,7 @@ std::optional<Filled> ArvStreamOfCamera::pop(Duration timeout) {
   if (buffer == nullptr) return std::nullopt;
   Filled filled = describe(buffer);
   g_object_unref(buffer);  // handles_ still has one
+  if (filled.status != BufferStatus::kAborted) countMissing();
   return filled;
 }
 
@@ -127,10 +168,20 @@ StreamCounts ArvStreamOfCamera::counts() const {
   guint64 completed = 0, failures = 0, underruns = 0;
   arv_stream_get_statistics(stream_.get(), &completed, &failures, &underruns);
   counts.underruns = underruns;
-  counts.missingPackets = infoOf(stream_.get(), "n_missing_packets");
+  counts.missingPackets =
+      missing_.counts() ? missing_.count() : infoOf(stream_.get(), "n_missing_packets");
   counts.resentPackets = infoOf(stream_.get(), "n_resent_packets");
   counts.ignoredPackets = infoOf(stream_.get(), "n_ignored_packets");
   return counts;
+}
+
+void ArvStreamOfCamera::countMissing() {
+  if (!missing_.counts()) return;
+  const std::uint64_t others = infoOf(stream_.get(), "n_duplicated_packets") +
+                               infoOf(stream_.get(), "n_error_packets") +
+                               infoOf(stream_.get(), "n_ignored_packets");
+  const std::uint64_t received = infoOf(stream_.get(), "n_received_packets");
+  missing_.frameEnded(received - std::min(received, others));
 }
 
 Filled ArvStreamOfCamera::describe(ArvBuffer* buffer) const {

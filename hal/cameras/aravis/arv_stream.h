@@ -7,6 +7,7 @@
 
 #include "hal/cameras/aravis/arv_handles.h"
 #include "hal/cameras/aravis/library.h"
+#include "hal/cameras/aravis/missing_packets.h"
 #include "hal/clock.h"
 
 namespace pleinair::hal::aravis {
@@ -31,6 +32,8 @@ class ArvStreamOfCamera final : public Stream {
                     std::shared_ptr<const ChunkTimes> chunkTimes);
   ~ArvStreamOfCamera() override;
 
+  /// Keeps packets from it that no camera sends (packet_filter.h). Before the acquisition starts.
+  void guard();
   /// Gives it the memory of its buffers, which outlives it. Before the acquisition starts.
   void add(std::vector<std::span<std::uint8_t>> buffers);
 
@@ -39,11 +42,13 @@ class ArvStreamOfCamera final : public Stream {
   StreamCounts counts() const override;
 
  private:
+  void countMissing();
   Filled describe(ArvBuffer* buffer) const;
 
   Object<ArvCamera> camera_;
   Object<ArvStream> stream_;
   std::shared_ptr<const ChunkTimes> chunkTimes_;
+  MissingPackets missing_;
   std::vector<ArvBuffer*> buffers_;
   std::vector<Object<ArvBuffer>> handles_;
 };

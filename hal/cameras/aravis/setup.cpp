@@ -197,6 +197,13 @@ Result<void> setFormat(Device& device, const AravisOptions& options, const Strea
   if (auto set = device.setPixelFormat((*layout)->pfnc); !set) return set;
   const Result<Region> region = setRegion(device, options, **layout, request.size);
   if (!region) return tl::unexpected(region.error());
+  // Pairs would go on across the ends of rows.
+  if ((*layout)->pixelFormat == PixelFormat::kYuyv && region->size().width % 2 != 0) {
+    return tl::unexpected(unsupported(
+        fmt::format("gives rows of {} px in {}, whose pixels are paired", region->size().width,
+                    (*layout)->name),
+        "set camera.aravis.pixel_format to another of its formats"));
+  }
   negotiated.region = *region;
   return {};
 }

@@ -16,8 +16,8 @@
 #include "hal/pixel_format.h"
 
 // The seam to libcamera: all that the camera uses of it, without one of its types.
-// libcamera_library.cpp is the only file that calls libcamera; tests replace the seam
-// (tests/support/fake_libcamera.h).
+// libcamera_library.cpp (discovery) and lc_*.cpp (settings, stream) are the only files that call
+// libcamera; tests replace the seam (tests/support/fake_libcamera.h).
 
 namespace pleinair::hal::libcamera {
 

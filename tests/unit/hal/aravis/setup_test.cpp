@@ -35,6 +35,16 @@ TEST_F(AravisSetupTest, RefusesBoundsThatHoldNoRegion) {
   EXPECT_EQ(start({.size = FrameSize{66, 49}})->frame.size, (FrameSize{66, 48}));
 }
 
+TEST_F(AravisSetupTest, RefusesPairsThatGoOnAcrossTheEndsOfRows) {
+  fake.formats = {0x02100032};  // YUV422_8
+  fake.bounds.width = {127, 127, 1};
+  EXPECT_EQ(failure(),
+            "aravis:Fake-Cam-1: gives rows of 127 px in YUV422_8, whose pixels are paired; set "
+            "camera.aravis.pixel_format to another of its formats");
+  fake.bounds.width = {126, 126, 1};
+  EXPECT_EQ(failure(), "started");
+}
+
 TEST_F(AravisSetupTest, KeepsMosaicsInPhase) {
   fake.formats = {0x01080009};
   fake.bounds = {.width = {1, 127, 1}, .height = {1, 95, 1}, .xStep = 1, .yStep = 1};
