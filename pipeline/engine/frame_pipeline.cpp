@@ -7,10 +7,9 @@
 #include <span>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "config/suggestion.h"
 #include "hal/error.h"
+#include "pipeline/engine/debug_views.h"
 #include "pipeline/engine/quality_levels.h"
 #include "pipeline/gpu/aspect_fill.h"
 #include "pipeline/marks/marks_shaders.h"
@@ -20,9 +19,6 @@
 
 namespace pleinair {
 namespace {
-
-constexpr std::string_view kCameraView = "camera";
-constexpr std::string_view kArView = "ar";
 
 gpu::ShaderLibrary makeLibrary(const PainterOptions& options) {
   gpu::ShaderLibrary library(options.shaderDirectory);
@@ -59,11 +55,6 @@ std::optional<scene::LightEstimator> makeLightEstimator(const PainterOptions& op
   const bool isAttached = scene.light.frame == scene::Light::Frame::kAttached;
   if (scene.light.hasDirection && isAttached) towardKey = scene.light.towardLight;
   return scene::LightEstimator(scene.tags, scene.tagFamily, places, towardKey);
-}
-
-/// Whether the engine paints this view, not the style.
-bool isEngineView(std::string_view view) {
-  return view == kCameraView || view == kArView || scene::findBufferView(view) != nullptr;
 }
 
 }  // namespace
@@ -134,31 +125,6 @@ void FramePipeline::warmUp(const Level& level, const hal::Image& blank) {
                         hal::TimePoint{}, {.surfaces = style_->needs().surfaces});
   frame.fullSize = pictureSize_;
   style_->paint(frame, {});
-}
-
-std::vector<DebugView> debugViewsOf(std::string_view style) {
-  std::vector<DebugView> views{
-      {std::string(kCameraView), "what the camera shows, at the picture's size"},
-      {std::string(kArView), "the camera's picture with the models in it, before the style"}};
-  for (const scene::BufferView& view : scene::bufferViews()) {
-    views.push_back({std::string(view.name), std::string(view.help)});
-  }
-  for (const styles::DebugViewInfo& view : styles::styleKind(style).views) {
-    views.push_back({std::string(view.name), std::string(view.help)});
-  }
-  return views;
-}
-
-hal::Result<void> checkDebugView(std::string_view style, std::string_view view) {
-  if (view.empty() || isEngineView(view)) return {};
-  const auto ofStyle = styles::styleKind(style).views;
-  if (std::ranges::find(ofStyle, view, &styles::DebugViewInfo::name) != ofStyle.end()) return {};
-  std::vector<std::string> names;
-  for (DebugView& each : debugViewsOf(style)) names.push_back(std::move(each.name));
-  return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
-                                   .subject = fmt::format("view \"{}\"", view),
-                                   .problem = config::unknownText("view", view, names),
-                                   .remedy = "choose one of: " + config::listText(names)});
 }
 
 hal::Result<void> FramePipeline::checkQuality(std::size_t quality) const {
@@ -438,17 +404,8 @@ const gpu::Texture& FramePipeline::paintView(const scene::ArFrame& frame,
 void FramePipeline::submitReadbacks(const hal::CapturedFrame& frame) {
   const auto scope = timer_.measure("read back");
   for (auto& [id, readback] : readbacks_) {
-    if (const auto surface = std::exchange(readback.next, std::nullopt)) {
-      readback.drawer->submit(*picture_, pictureSize_, surface->id);
-      readback.inFlight.push_back({frame.sequence, frame.captureTime, paintings_, surface});
-      continue;
-    }
-    if (!readback.ring.hasRoom()) {
-      ++readback.skipped;
-      continue;
-    }
-    readback.ring.submit(*picture_, pictureSize_);
-    readback.inFlight.push_back({frame.sequence, frame.captureTime, paintings_, std::nullopt});
+    readback.submit(*picture_, pictureSize_,
+                    {frame.sequence, frame.captureTime, paintings_, std::nullopt});
   }
   ++paintings_;
 }
@@ -460,10 +417,8 @@ hal::Answer FramePipeline::copyOldest(int number, OutputFrame& frame,
   if (resetMonitor_.loss()) return tl::unexpected(*resetMonitor_.loss());
   frames_.releaseRead();
   OpenReadback& readback = readbacks_.at(number);
-  frame.surface.reset();
-  const bool isDrawn = !readback.inFlight.empty() && readback.inFlight.front().surface;
   const hal::Answer copied =
-      isDrawn ? takeDrawn(readback, frame, waits) : (readback.ring.*copy)(frame.image);
+      readback.take(frame, copy, waits ? testHook_.patience : hal::Duration::zero());
   if (copied.hasError()) return tl::unexpected(orLoss(copied.error()));
   if (!copied.isYes()) return false;
   frames_.releaseRead();
@@ -471,20 +426,6 @@ hal::Answer FramePipeline::copyOldest(int number, OutputFrame& frame,
   frame.captureTime = readback.inFlight.front().captureTime;
   readback.inFlight.erase(readback.inFlight.begin());
   return true;
-}
-
-/// The oldest one, where it was drawn into a surface.
-hal::Answer FramePipeline::takeDrawn(OpenReadback& readback, OutputFrame& frame, bool waits) {
-  const hal::Answer isReady =
-      readback.drawer->isReadyWithin(waits ? testHook_.patience : hal::Duration::zero());
-  if (isReady.hasError() || !isReady.isYes()) return isReady;
-  readback.drawer->pop();
-  frame.surface = readback.inFlight.front().surface;
-  return true;
-}
-
-hal::Answer FramePipeline::OpenReadback::isReadyWithin(hal::Duration limit) const {
-  return inFlight.front().surface ? drawer->isReadyWithin(limit) : ring.isReadyWithin(limit);
 }
 
 hal::Result<hal::Image> FramePipeline::read(const gpu::Texture* texture) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/engine/open_readback.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/gpu/aspect_fill.h"
 #include "pipeline/gpu/camera_frames.h"
@@ -18,7 +19,6 @@
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/overlay/overlay_renderer.h"
 #include "pipeline/present/readback.h"
-#include "pipeline/present/surface_drawer.h"
 #include "pipeline/scene/light/light_estimator.h"
 #include "pipeline/scene/render/ar_frame_renderer.h"
 #include "pipeline/scene/render/buffer_views.h"
@@ -60,26 +60,6 @@ class FramePipeline {
  private:
   friend class Painter;
 
-  /// A read-back with the origins of its output frames in flight.
-  struct OpenReadback {
-    struct Stamp {
-      std::uint64_t sequence = 0;
-      hal::TimePoint captureTime;
-      std::uint64_t painting = 0;               ///< number of the painting, whatever its frame
-      std::optional<hal::LentSurface> surface;  ///< that it is drawn into; unset: read back
-    };
-    OpenReadback(present::Readback readback, int turns)
-        : ring(std::move(readback)), quarterTurns(turns) {}
-    hal::Answer isReadyWithin(hal::Duration limit) const;
-
-    present::Readback ring;
-    int quarterTurns;
-    std::optional<present::SurfaceDrawer> drawer;  ///< once surfaces were imported
-    std::optional<hal::LentSurface> next;          ///< for the next picture
-    std::vector<Stamp> inFlight;                   ///< oldest first
-    std::uint64_t skipped = 0;
-  };
-
   /// A quality level that can be painted at.
   struct Level {
     hal::FrameSize size;
@@ -116,7 +96,6 @@ class FramePipeline {
                          hal::Answer (present::Readback::*copy)(hal::Image&), bool waits);
   void forgetSurfaces();
   void submitReadbacks(const hal::CapturedFrame& frame);
-  hal::Answer takeDrawn(OpenReadback& readback, OutputFrame& frame, bool waits);
   /// Gives the loss of the GPU if that caused `error`, otherwise `error`.
   hal::Error orLoss(const hal::Error& error);
   /// Implements Painter::paint().

@@ -85,8 +85,7 @@ int Painter::openReadback(const hal::FrameFormat& format, int quarterTurns) {
   try {
     present::Readback ring(p.library_, format, kReadbackDepth, p.testHook_, quarterTurns);
     for (const FramePipeline::Level& level : p.levels_) ring.warmUp(level.size);
-    p.readbacks_.emplace(p.nextReadback_,
-                         FramePipeline::OpenReadback(std::move(ring), quarterTurns));
+    p.readbacks_.emplace(p.nextReadback_, OpenReadback(std::move(ring), quarterTurns));
     return p.nextReadback_++;
   } catch (const hal::Failure& error) {
     throw hal::Failure(p.orLoss(error.error()));
@@ -112,7 +111,7 @@ hal::Result<void> Painter::importSurfaces(int readback, std::span<const hal::Gpu
   FramePipeline& p = *pipeline_;
   const ContextScope scope = p.enter();
   if (auto valid = p.resetMonitor_.check(); !valid) return valid;
-  FramePipeline::OpenReadback& open = p.readbacks_.at(readback);
+  OpenReadback& open = p.readbacks_.at(readback);
   open.next.reset();
   try {
     if (!open.drawer) {
@@ -128,7 +127,7 @@ hal::Result<void> Painter::importSurfaces(int readback, std::span<const hal::Gpu
 }
 
 void Painter::drawNextInto(int readback, const hal::LentSurface& surface) {
-  FramePipeline::OpenReadback& open = pipeline_->readbacks_.at(readback);
+  OpenReadback& open = pipeline_->readbacks_.at(readback);
   assert(open.drawer && open.ring.format().pixelFormat == hal::PixelFormat::kRgba8);
   open.next = surface;
 }
@@ -148,7 +147,7 @@ hal::Answer Painter::waitForAny(hal::Duration limit) {
   const ContextScope scope = p.enter();
   if (p.resetMonitor_.loss()) return tl::unexpected(*p.resetMonitor_.loss());
   // The GPU works in the order of paintings and, within one, of read-backs.
-  const FramePipeline::OpenReadback* oldest = nullptr;
+  const OpenReadback* oldest = nullptr;
   for (const auto& [number, each] : p.readbacks_) {
     if (each.inFlight.empty()) continue;
     const bool isOlder =

@@ -100,7 +100,8 @@ Result<StreamFormat> SyntheticCamera::start(const StreamRequest&) {
   if (!renderer_) {
     synthetic::WorldOptions world{.seed = options_.seed,
                                   .texelMetres = texelMetresFor(size),
-                                  .hasFigures = options_.shot == SyntheticShot::kVisitors};
+                                  .hasFigures = options_.shot == SyntheticShot::kVisitors ||
+                                                options_.shot == SyntheticShot::kCrossing};
     renderer_.emplace(synthetic::sharedWorkbench(world));
     if (options_.shot == SyntheticShot::kLights) {
       world.hasSpotlight = true;

@@ -58,7 +58,7 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow) {
         {"record", "--output", "/no-such-folder/b.mp4", "--camera", camera},
         "synthetic, synthetic:walkaround, synthetic:pan, synthetic:dolly, synthetic:roll, "
         "synthetic:still, synthetic:occluder, synthetic:cut, synthetic:visitors, synthetic:lights, "
-        "synthetic:hand");
+        "synthetic:hand, synthetic:crossing");
   }
 }
 
@@ -80,7 +80,8 @@ TEST(CommandLine, NamesOnlyTheShotsWhereAShotIsUnknown) {
       refused.error,
       "pleinair: --camera: found \"synthetic:nope\", allowed: synthetic, synthetic:walkaround, "
       "synthetic:pan, synthetic:dolly, synthetic:roll, synthetic:still, synthetic:occluder, "
-      "synthetic:cut, synthetic:visitors, synthetic:lights, synthetic:hand\n");
+      "synthetic:cut, synthetic:visitors, synthetic:lights, synthetic:hand, "
+      "synthetic:crossing\n");
 }
 
 TEST(CommandLine, PointsToTheHelpOfTheSubcommand) {

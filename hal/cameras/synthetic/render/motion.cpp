@@ -133,6 +133,7 @@ glm::dmat4 Motion::cameraFromWorld(double seconds) const {
     case SyntheticShot::kHand:
       return home;
     case SyntheticShot::kVisitors:
+    case SyntheticShot::kCrossing:
       return lookAt(kVisitorsEye, kVisitorsTarget);
     case SyntheticShot::kOccluder:
       return heldAt(kHomeEye, kHomeTarget, seconds);
@@ -177,6 +178,7 @@ BodyPoses Motion::bodies(double seconds) const {
   if (shot_ == SyntheticShot::kOccluder) bodies.place(kArm, worldFromArm(seconds));
   if (shot_ == SyntheticShot::kHand) bodies.place(kArm, worldFromSlowArm(seconds));
   if (shot_ == SyntheticShot::kVisitors) placeVisitors(seconds, bodies);
+  if (shot_ == SyntheticShot::kCrossing) placeCrossing(seconds, bodies);
   return bodies;
 }
 

@@ -7,8 +7,9 @@
 namespace pleinair::hal {
 namespace {
 
-constexpr std::array<std::string_view, 10> kNames{
-    "walkaround", "pan", "dolly", "roll", "still", "occluder", "cut", "visitors", "lights", "hand"};
+constexpr std::array<std::string_view, 11> kNames{"walkaround", "pan",      "dolly",   "roll",
+                                                  "still",      "occluder", "cut",     "visitors",
+                                                  "lights",     "hand",     "crossing"};
 
 }  // namespace
 

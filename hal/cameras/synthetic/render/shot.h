@@ -19,6 +19,7 @@ enum class SyntheticShot {
   kVisitors,    ///< on a tripod, far back; persons cross the room, and one of them stops
   kLights,      ///< static; a spotlight goes on and off, and the exposure falls and recovers
   kHand,        ///< static; the arm reaches in slowly, rests, goes on, and withdraws
+  kCrossing,    ///< as kVisitors; two persons come from both sides and pass each other
 };
 
 std::string_view toString(SyntheticShot shot);

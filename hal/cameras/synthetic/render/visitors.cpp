@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include <glm/common.hpp>
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "hal/cameras/synthetic/world/figure.h"
@@ -26,8 +27,11 @@ struct Walk {
 };
 constexpr double kRampSeconds = 0.7;
 constexpr double kNever = 1e9;
-constexpr std::array<Walk, kFigures> kWalks{
-    {{1.0, -2.1, 3.05, 1.15, kNever, 0}, {7.4, 3.05, -2.1, 1.10, 2.65, 2.0}}};
+using Walks = std::array<Walk, kFigures>;
+constexpr Walks kOneByOne{{{1.0, -2.1, 3.05, 1.15, kNever, 0}, {7.4, 3.05, -2.1, 1.10, 2.65, 2.0}}};
+constexpr Walks kBothAtOnce{
+    {{1.0, -2.1, 3.05, 1.15, kNever, 0}, {0.9, 3.05, -2.1, 1.10, kNever, 0}}};
+constexpr double kAside = 0.55;  ///< metres: so much nearer the second figure passes the first one
 
 /// How far along its way a figure is.
 struct Progress {
@@ -101,21 +105,34 @@ FigureJoints jointsOf(const Progress& progress, double stride) {
   return joints;
 }
 
-}  // namespace
-
-void placeVisitors(double seconds, BodyPoses& bodies) {
-  const double t = seconds - kVisitorsSeconds * std::floor(seconds / kVisitorsSeconds);
+/// Places the figures at `seconds` of walks that start over after `period`; the second figure is
+/// nearer to the camera by `aside` metres.
+void placeWalks(const Walks& walks, double period, double aside, double seconds,
+                BodyPoses& bodies) {
+  const double t = seconds - period * std::floor(seconds / period);
   for (std::size_t figure = 0; figure < kFigures; ++figure) {
-    const Walk& walk = kWalks[figure];
+    const Walk& walk = walks[figure];
     const Progress progress = progressOf(walk, t);
     const double direction = walk.to > walk.from ? 1 : -1;
-    const glm::dmat4 worldFromFigure = visitorPose(figure, walk.from + direction * progress.metres);
+    const glm::dvec3 nearer(0, figure == 0 ? 0 : -aside, 0);
+    const glm::dmat4 worldFromFigure = glm::translate(glm::dmat4(1), nearer) *
+                                       visitorPose(figure, walk.from + direction * progress.metres);
     const FigurePoses parts =
         figureFromParts(figure, jointsOf(progress, strideMetres(figure, kHipSwing)));
     for (std::size_t part = 0; part < parts.size(); ++part) {
       bodies.place(bodyOf(figure, static_cast<FigurePart>(part)), worldFromFigure * parts[part]);
     }
   }
+}
+
+}  // namespace
+
+void placeVisitors(double seconds, BodyPoses& bodies) {
+  placeWalks(kOneByOne, kVisitorsSeconds, 0, seconds, bodies);
+}
+
+void placeCrossing(double seconds, BodyPoses& bodies) {
+  placeWalks(kBothAtOnce, kCrossingSeconds, kAside, seconds, bodies);
 }
 
 }  // namespace pleinair::hal::synthetic

@@ -62,7 +62,8 @@ TEST(Motion, IsWhatTheShotsNameSays) {
   };
   EXPECT_EQ(Motion(SyntheticShot::kStill, 1).cameraFromWorld(0),
             Motion(SyntheticShot::kStill, 1).cameraFromWorld(17.3));
-  for (const SyntheticShot shot : {SyntheticShot::kVisitors, SyntheticShot::kLights}) {
+  for (const SyntheticShot shot :
+       {SyntheticShot::kVisitors, SyntheticShot::kCrossing, SyntheticShot::kLights}) {
     EXPECT_EQ(Motion(shot, 1).cameraFromWorld(0), Motion(shot, 2).cameraFromWorld(17.3));
   }
   const Placed start = at(SyntheticShot::kPan, 0);
