@@ -55,6 +55,7 @@ constexpr hal::Duration kReportInterval = 100ms;
 constexpr hal::Duration kWindowPatience = 1s;
 /// Part of the two seconds that ending may take; the rest is for the exit itself.
 constexpr hal::Duration kStopPatience = 1500ms;
+
 /// The life of a live pipeline, from waiting for its camera to its closing line, with its status
 /// server and reports. Main thread.
 class LivePainting {

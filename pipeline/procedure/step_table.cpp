@@ -203,9 +203,12 @@ std::optional<Check> readCheck(const TomlTable& step) {
 std::size_t targetOf(const TomlTable& table, std::string_view key, const Procedure& procedure) {
   const std::string name = table.string(key, "the id of a step, or \"end\"");
   if (name == kEndName) return kEnd;
-  if (const auto found = procedure.findStep(name)) return *found;
+  const auto found = procedure.findStep(name);
+  if (found && !name.empty()) return *found;
   std::vector<std::string> ids;
-  for (const Step& step : procedure.steps) ids.push_back(step.id);
+  for (const Step& step : procedure.steps) {
+    if (!step.id.empty()) ids.push_back(step.id);  // empty: a mistake of its own
+  }
   ids.emplace_back(kEndName);
   throw table.error(key, "there is no step " + config::foundText(name, ids), shortListText(ids));
 }

@@ -122,6 +122,7 @@ struct GigeRelay::Impl {
     if (command == kWriteRegister) {
       for (std::size_t at = kHeader; at + 8 <= bytes.size(); at += 8) {
         if (word(bytes, at) != kStreamPort) continue;
+        const std::scoped_lock lock(mutex);
         streamHost = from;
         streamHost.sin_port = htons(static_cast<std::uint16_t>(word(bytes, at + 4)));
         if (word(bytes, at + 4) != 0) setWord(bytes, at + 4, ownStreamPort());
@@ -194,11 +195,12 @@ struct GigeRelay::Impl {
   hal::FileDescriptor answers = boundSocket("127.0.0.1", 0);          ///< towards the camera
   hal::FileDescriptor stream = boundSocket("127.0.0.1", 0);           ///< from the camera
   hal::FileDescriptor sender = boundSocket(kAddress, 0);  ///< its packets to the program
-  sockaddr_in host{}, streamHost{};
+  sockaddr_in host{};
   bool asksForCapabilities = false;
   std::atomic<bool> isUnplugged = false;
 
   std::mutex mutex;  // guards the following
+  sockaddr_in streamHost{};
   std::mt19937 chance;
   RelayCounts counts;
   std::map<PacketId, Bytes> memory;

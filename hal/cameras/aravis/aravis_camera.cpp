@@ -88,12 +88,16 @@ Result<StreamFormat> Session::begin(const StreamRequest& request) {
                      std::move(buffers));
   if (!stream) return tl::unexpected(std::move(stream.error()));
   stream_ = *std::move(stream);
+  std::string warning = linkWarning(library_, *device_, options_);
+  if (warning.empty() && !stream_->isGuarded()) {
+    warning = "packets that no camera sends are not kept out: use a network of its own";
+  }
   nextTrigger_ = clock_.now();
   return StreamFormat{.frame = format_,
                       .framePeriod = negotiated_.framePeriod,
                       .frameCount = {},
                       .isTriggered = negotiated_.isLineTriggered,
-                      .warning = linkWarning(library_, *device_, options_)};
+                      .warning = std::move(warning)};
 }
 
 NextFrame Session::end(NextFrame answer) {

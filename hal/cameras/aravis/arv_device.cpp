@@ -243,7 +243,7 @@ class ArvDeviceOfCamera final : public Device {
     auto stream = std::make_unique<ArvStreamOfCamera>(
         Object<ArvCamera>(ARV_CAMERA(g_object_ref(camera_.get()))), std::move(arvStream),
         chunkTimes_);
-    stream->guard();
+    if (!buffers.empty()) stream->guard(buffers.front().size());
     stream->add(std::move(buffers));
     arv_camera_start_acquisition(camera_.get(), error.out());
     if (error.isSet()) return tl::unexpected(error.as("cannot start streaming"));

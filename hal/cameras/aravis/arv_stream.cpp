@@ -40,11 +40,9 @@ std::uint64_t infoOf(ArvStream* stream, const char* name) {
 }
 
 /// IPv4, in the host's byte order.
-std::optional<std::uint32_t> addressOf(ArvCamera* camera) {
-  GSocketAddress* const device =
-      arv_gv_device_get_device_address(ARV_GV_DEVICE(arv_camera_get_device(camera)));
-  if (!G_IS_INET_SOCKET_ADDRESS(device)) return std::nullopt;
-  GInetAddress* const address = g_inet_socket_address_get_address(G_INET_SOCKET_ADDRESS(device));
+std::optional<std::uint32_t> addressOf(GSocketAddress* of) {
+  if (!G_IS_INET_SOCKET_ADDRESS(of)) return std::nullopt;
+  GInetAddress* const address = g_inet_socket_address_get_address(G_INET_SOCKET_ADDRESS(of));
   if (g_inet_address_get_family(address) != G_SOCKET_FAMILY_IPV4) return std::nullopt;
   std::uint32_t bytes = 0;
   std::memcpy(&bytes, g_inet_address_to_bytes(address), sizeof bytes);
@@ -126,12 +124,22 @@ ArvStreamOfCamera::~ArvStreamOfCamera() {
   arv_camera_stop_acquisition(camera_.get(), error.out());  // fails if it is gone
 }
 
-void ArvStreamOfCamera::guard() {
-  if (!missing_.counts() || !ARV_IS_GV_STREAM(stream_.get())) return;
-  const std::optional<std::uint32_t> address = addressOf(camera_.get());
-  if (!address) return;
-  filterPackets(arv_gv_stream_get_port(ARV_GV_STREAM(stream_.get())),
-                {.camera = *address, .perFrame = static_cast<std::uint32_t>(missing_.perFrame())});
+void ArvStreamOfCamera::guard(std::size_t bufferBytes) {
+  isGuarded_ = !ARV_IS_GV_STREAM(stream_.get()) || filterUdp(bufferBytes);
+}
+
+bool ArvStreamOfCamera::filterUdp(std::size_t bufferBytes) {
+  ArvGvDevice* const device = ARV_GV_DEVICE(arv_camera_get_device(camera_.get()));
+  const auto camera = addressOf(arv_gv_device_get_device_address(device));
+  if (!camera) return false;
+  GlibError error;
+  const gint packetBytes = arv_camera_gv_get_packet_size(camera_.get(), error.out());
+  if (error.isSet() || packetBytes <= 0) return false;
+  return filterPackets(addressOf(arv_gv_device_get_interface_address(device)).value_or(0),
+                       arv_gv_stream_get_port(ARV_GV_STREAM(stream_.get())),
+                       {.camera = *camera,
+                        .bufferBytes = bufferBytes,
+                        .packetBytes = static_cast<std::uint32_t>(packetBytes)});
 }
 
 void ArvStreamOfCamera::add(std::vector<std::span<std::uint8_t>> buffers) {
@@ -153,8 +161,8 @@ std::optional<Filled> ArvStreamOfCamera::pop(Duration timeout) {
                                       stream_.get(), static_cast<guint64>(microseconds.count()));
   if (buffer == nullptr) return std::nullopt;
   Filled filled = describe(buffer);
+  if (filled.status != BufferStatus::kAborted) countMissing(buffer, filled.status);
   g_object_unref(buffer);  // handles_ still has one
-  if (filled.status != BufferStatus::kAborted) countMissing();
   return filled;
 }
 
@@ -175,13 +183,17 @@ StreamCounts ArvStreamOfCamera::counts() const {
   return counts;
 }
 
-void ArvStreamOfCamera::countMissing() {
+void ArvStreamOfCamera::countMissing(ArvBuffer* buffer, BufferStatus status) {
   if (!missing_.counts()) return;
+  size_t bytes = 0;
+  arv_buffer_get_data(buffer, &bytes);
   const std::uint64_t others = infoOf(stream_.get(), "n_duplicated_packets") +
                                infoOf(stream_.get(), "n_error_packets") +
                                infoOf(stream_.get(), "n_ignored_packets");
   const std::uint64_t received = infoOf(stream_.get(), "n_received_packets");
-  missing_.frameEnded(received - std::min(received, others));
+  const bool isWhole = status == BufferStatus::kComplete && bytes > 0;
+  missing_.frameEnded(received - std::min(received, others),
+                      isWhole ? std::optional<std::size_t>(bytes) : std::nullopt);
 }
 
 Filled ArvStreamOfCamera::describe(ArvBuffer* buffer) const {

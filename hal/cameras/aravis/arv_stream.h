@@ -32,23 +32,27 @@ class ArvStreamOfCamera final : public Stream {
                     std::shared_ptr<const ChunkTimes> chunkTimes);
   ~ArvStreamOfCamera() override;
 
-  /// Keeps packets from it that no camera sends (packet_filter.h). Before the acquisition starts.
-  void guard();
+  /// Keeps packets from it that no camera sends (packet_filter.h), for buffers of this size. Before
+  /// the acquisition starts. Packets that are read below the UDP socket are not looked at.
+  void guard(std::size_t bufferBytes);
   /// Gives it the memory of its buffers, which outlives it. Before the acquisition starts.
   void add(std::vector<std::span<std::uint8_t>> buffers);
 
   std::optional<Filled> pop(Duration timeout) override;
   void push(std::size_t index) override;
   StreamCounts counts() const override;
+  bool isGuarded() const override { return isGuarded_; }
 
  private:
-  void countMissing();
+  bool filterUdp(std::size_t bufferBytes);
+  void countMissing(ArvBuffer* buffer, BufferStatus status);
   Filled describe(ArvBuffer* buffer) const;
 
   Object<ArvCamera> camera_;
   Object<ArvStream> stream_;
   std::shared_ptr<const ChunkTimes> chunkTimes_;
   MissingPackets missing_;
+  bool isGuarded_ = true;
   std::vector<ArvBuffer*> buffers_;
   std::vector<Object<ArvBuffer>> handles_;
 };

@@ -107,6 +107,8 @@ class Stream {
   /// Gives a buffer back to be filled. The one call that is allowed on any thread.
   virtual void push(std::size_t index) = 0;
   virtual StreamCounts counts() const = 0;
+  /// Whether packets that no camera sends are kept from it.
+  virtual bool isGuarded() const { return true; }
 };
 
 /// An open camera, of one thread. Any call may block for 3 s if the device no longer answers; the
