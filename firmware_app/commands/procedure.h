@@ -39,9 +39,9 @@ struct ProcedurePreviewOptions {
   bool nodes = false;            ///< draw the model's nodes in place of the steps
 };
 
-/// Draws every step, or every node of the model, on one sheet, without a camera: `pleinair procedure preview`. Throws
-/// hal::Failure and config::ConfigError. Returns the exit status: 0, or 128 + the signal that
-/// interrupted it, after which there is no sheet.
+/// Draws every step, or every node of the model, on one sheet, without a camera: `pleinair
+/// procedure preview`. Throws hal::Failure and config::ConfigError. Returns the exit status: 0, or
+/// 128 + the signal that interrupted it, after which there is no sheet.
 int previewProcedure(const ProcedurePreviewOptions& options);
 
 struct ProcedureTemplateOptions {

@@ -13,7 +13,7 @@
 #include "firmware_app/repair_station/live_procedure.h"
 #include "firmware_app/repair_station/seen_tags.h"
 #include "hal/pixel_format.h"
-#include "pipeline/overlay/tag_contradictions.h"
+#include "pipeline/engine/painter.h"
 
 namespace pleinair::app {
 

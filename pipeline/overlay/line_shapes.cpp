@@ -126,7 +126,7 @@ void LineShapes::addShapesOf(const Arrow& arrow, const PartShape& shape,
   // would lie on the part, is turned aside that far.
   const std::optional<glm::dvec2> ahead =
       eye.px(shape.centre + (shape.halfLength + shape.radius) * shape.axis);
-  if (!ahead || !takesPlace(*middle, 1.2 * kLeastLengthPx * pxScale)) return;
+  if (!ahead) return;
   glm::dvec2 way = *ahead - *middle;
   const double seen = glm::length(way);
   way = seen > 2.0 ? way / seen : glm::dvec2(0.0, 1.0);
@@ -144,6 +144,8 @@ void LineShapes::addShapesOf(const Arrow& arrow, const PartShape& shape,
   }
   length = std::max(length, 0.5 * kLeastLengthPx * pxScale);
   const glm::dvec2 outer = inner + length * way;
+  // Parts that leave to either side have arrows that are far apart, however near they are.
+  if (!takesPlace(0.5 * (inner + outer), 1.2 * kLeastLengthPx * pxScale)) return;
   if (arrow.kind == ArrowKind::kPull) {
     addArrow(inner, outer, 1.3 * kHalfWidthPx * pxScale);
   } else {

@@ -107,6 +107,26 @@ TEST(LineShapes, ArrowsDoNotRunIntoOneAnother) {
   EXPECT_EQ(add(), 2 * one);
 }
 
+TEST(LineShapes, NeighboursThatLeaveToEitherSideHaveAnArrowEach) {
+  const auto arrowsOf = [](const glm::dvec3& axis, const glm::dvec3& other,
+                           const glm::dvec3& apart) {
+    LineShapes shapes;
+    PartShape part = disc();
+    part.side = {0.0, 0.0, 1.0};
+    for (const auto& [along, sign] : {std::pair(axis, -0.5), {other, 0.5}}) {
+      PartShape each = part;
+      each.axis = along;
+      each.centre = sign * apart;
+      for (glm::dvec3& corner : each.corners) corner += each.centre;
+      shapes.addArrowOf({.kind = ArrowKind::kPull}, each, ahead(0.4), testCamera(), 1.0, 0.0);
+    }
+    return shapes.arrowBoxes().size();
+  };
+  const glm::dvec3 right{1.0, 0.0, 0.0};
+  EXPECT_EQ(arrowsOf(-right, right, 0.015 * right), 2U) << "21 px apart";
+  EXPECT_EQ(arrowsOf(right, right, {0.0, 0.015, 0.0}), 1U) << "one beside the other";
+}
+
 TEST(LineShapes, KeepItsMemory) {
   LineShapes shapes;
   for (std::size_t i = 0; i < 2 * LineShapes::kMost; ++i) shapes.addLine({0, 0}, {1, 1}, 1.0);
