@@ -89,8 +89,9 @@ FramePipeline::FramePipeline(const PainterOptions& options, PainterGl gl)
       defaults_(style_->parameters()),
       light_(makeLightEstimator(options)) {
   hal::orThrow(tracking::checkTagFamily(scene_.tagFamily));
-  if (options.overlay)
+  if (options.overlay) {
     overlay_.emplace(library_, scene_, options.machine, pictureSize_, options.doubtfulTags);
+  }
   for (const QualityPlan& plan : qualityPlans()) {
     if (levels_.empty() || options.qualityLevels) levels_.push_back({sizeAt(pictureSize_, plan)});
   }

@@ -27,8 +27,8 @@ struct OpenReadback {
   void submit(const gpu::Texture& picture, hal::FrameSize size, Stamp stamp);
   /// Whether the oldest output frame is finished within `limit`. Precondition: one is in flight.
   hal::Answer isReadyWithin(hal::Duration limit) const;
-  /// Takes the oldest output frame, if it is finished within `limit`, and leaves its stamp in
-  /// flight: the surface that it was drawn into, or its pixels by `copy`, which is
+  /// Takes the oldest output frame, if it is finished (surfaces: within `limit`), and leaves its
+  /// stamp in flight: the surface that it was drawn into, or its pixels by `copy`, which is
   /// present::Readback's poll() or wait(). Errors are those of the GPU.
   hal::Answer take(OutputFrame& frame, hal::Answer (present::Readback::*copy)(hal::Image&),
                    hal::Duration limit);

@@ -28,7 +28,7 @@ struct Ids {
   std::uint32_t header;  ///< UDP's and GVSP's
   std::uint32_t number;  ///< the place of the packet's
 };
-constexpr Ids kShortIds{false, 16, 12}, kLongIds{true, 28, 24};
+constexpr Ids kHeaderOfShort{false, 16, 12}, kHeaderOfLong{true, 28, 24};
 
 constexpr std::uint8_t kDrop = 0xFF, kTake = 0xFE, kToLong = 0xFD;  // targets of jumps, until known
 
@@ -93,9 +93,9 @@ std::vector<sock_filter> packetFilter(const StreamPackets& packets) {
   std::vector<sock_filter> program{load(BPF_W, static_cast<std::uint32_t>(SKF_NET_OFF) + 12),
                                    compare(BPF_JEQ, packets.camera, 0, kDrop), load(BPF_B, kFormat),
                                    compare(BPF_JSET, kIsLong, kToLong, 0)};
-  append(program, branchOf(kShortIds, static_cast<std::uint32_t>(partsOfShort)));
+  append(program, branchOf(kHeaderOfShort, static_cast<std::uint32_t>(partsOfShort)));
   const std::size_t longBranch = program.size();
-  append(program, branchOf(kLongIds, static_cast<std::uint32_t>(partsOfLong)));
+  append(program, branchOf(kHeaderOfLong, static_cast<std::uint32_t>(partsOfLong)));
   const std::size_t drop = program.size();
   append(program, {BPF_STMT(BPF_RET | BPF_K, 0), BPF_STMT(BPF_RET | BPF_K, 0xFFFFFFFF)});
   for (std::size_t at = 0; at < program.size(); ++at) {

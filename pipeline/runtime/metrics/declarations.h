@@ -23,7 +23,7 @@ Readings textOf(const std::optional<hal::Error>& error);
 /// Counts by the name of the outcome.
 Readings byOutcome(const std::array<std::uint64_t, kOutcomes>& ended);
 
-// The declarations by scope, a file each.
+// The declarations by scope.
 std::vector<Metric> programMetrics();
 std::vector<Metric> cameraMetrics();
 std::vector<Metric> paintingMetrics();

@@ -31,7 +31,8 @@ using Walks = std::array<Walk, kFigures>;
 constexpr Walks kOneByOne{{{1.0, -2.1, 3.05, 1.15, kNever, 0}, {7.4, 3.05, -2.1, 1.10, 2.65, 2.0}}};
 constexpr Walks kBothAtOnce{
     {{1.0, -2.1, 3.05, 1.15, kNever, 0}, {0.9, 3.05, -2.1, 1.10, kNever, 0}}};
-constexpr double kAside = 0.55;  ///< metres: so much nearer the second figure passes the first one
+constexpr double kAside = 0.55;  ///< metres that the second figure passes nearer by, beside what
+                                 ///< its lane is nearer already
 
 /// How far along its way a figure is.
 struct Progress {

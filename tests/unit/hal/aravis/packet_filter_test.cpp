@@ -15,7 +15,7 @@ namespace pleinair::hal::aravis {
 namespace {
 
 constexpr std::uint32_t kCamera = 0x7F000001;
-constexpr std::uint8_t kLeader = 1, kTrailer = 2, kPayload = 3, kAllIn = 4, kLong = 0x80;
+constexpr std::uint8_t kLeader = 1, kTrailer = 2, kPart = 3, kAllIn = 4, kLong = 0x80;
 // Room for 10 packets of 1464 bytes with short ids, and 11 of 1452 with long ones.
 constexpr StreamPackets kPackets{.camera = kCamera, .bufferBytes = 14'640, .packetBytes = 1500};
 
@@ -73,26 +73,26 @@ TEST_F(PacketFilterTest, TakesWhatACameraSends) {
   EXPECT_TRUE(passes(packet(kLeader, 0)));
   EXPECT_TRUE(passes(packet(kLeader, 0, 0x4001)));  // with chunk data
   EXPECT_TRUE(passes(packet(kLeader, 0, 5)));       // extended chunk data
-  EXPECT_TRUE(passes(packet(kPayload, 1)));
-  EXPECT_TRUE(passes(packet(kPayload, 10)));
+  EXPECT_TRUE(passes(packet(kPart, 1)));
+  EXPECT_TRUE(passes(packet(kPart, 10)));
   EXPECT_TRUE(passes(packet(kTrailer, 11)));
   EXPECT_TRUE(passes(packet(kTrailer, 2)));  // of a frame that is shorter than announced
   EXPECT_TRUE(passes(packet(kLong | kLeader, 0)));
-  EXPECT_TRUE(passes(packet(kLong | kPayload, 11)));
+  EXPECT_TRUE(passes(packet(kLong | kPart, 11)));
   EXPECT_TRUE(passes(packet(kLong | kTrailer, 12)));
 }
 
 TEST_F(PacketFilterTest, DropsWhatWouldLieBesideTheBuffer) {
   ASSERT_TRUE(filterPackets(kCamera, port_, kPackets));
-  EXPECT_FALSE(passes(packet(kPayload, 0)));
-  EXPECT_FALSE(passes(packet(kPayload, 11)));
+  EXPECT_FALSE(passes(packet(kPart, 0)));
+  EXPECT_FALSE(passes(packet(kPart, 11)));
   EXPECT_FALSE(passes(packet(kTrailer, 12)));
   EXPECT_FALSE(passes(packet(kLeader, 1)));
-  EXPECT_FALSE(passes(packet(kLong | kPayload, 0)));
-  EXPECT_FALSE(passes(packet(kLong | kPayload, 12)));
+  EXPECT_FALSE(passes(packet(kLong | kPart, 0)));
+  EXPECT_FALSE(passes(packet(kLong | kPart, 12)));
   EXPECT_FALSE(passes(packet(kLong | kTrailer, 13)));
   // Numbers of more than 24 bits.
-  EXPECT_FALSE(passes(packet(kLong | kPayload, 0x0100'0001)));
+  EXPECT_FALSE(passes(packet(kLong | kPart, 0x0100'0001)));
   EXPECT_FALSE(passes(packet(kLong | kTrailer, 0x0100'0002)));
   EXPECT_FALSE(passes(packet(kLong | kLeader, 0x0100'0000)));
 }
@@ -105,11 +105,11 @@ TEST_F(PacketFilterTest, DropsOtherFormatsAndPartsOfFrames) {
   EXPECT_FALSE(passes(packet(kLeader, 0, 10)));  // several parts
   EXPECT_FALSE(passes(packet(kLong | kLeader, 0, 10)));
   for (std::size_t length = 0; length < 8; ++length) {
-    std::vector<std::uint8_t> cut = packet(kPayload, 1);
+    std::vector<std::uint8_t> cut = packet(kPart, 1);
     cut.resize(length);
     if (length > 0) EXPECT_FALSE(passes(cut)) << length;
   }
-  std::vector<std::uint8_t> cut = packet(kLong | kPayload, 1);
+  std::vector<std::uint8_t> cut = packet(kLong | kPart, 1);
   cut.resize(19);
   EXPECT_FALSE(passes(cut));
   cut = packet(kLeader, 0);
@@ -121,7 +121,7 @@ TEST_F(PacketFilterTest, DropsWhatComesFromElsewhere) {
   StreamPackets elsewhere = kPackets;
   elsewhere.camera = 0x7F000002;
   ASSERT_TRUE(filterPackets(kCamera, port_, elsewhere));
-  EXPECT_FALSE(passes(packet(kPayload, 1)));
+  EXPECT_FALSE(passes(packet(kPart, 1)));
 }
 
 TEST_F(PacketFilterTest, FindsTheSocketByItsInterface) {
