@@ -116,6 +116,14 @@ StateReading frameMemory(hal::FrameMemory current) {
   return state;
 }
 
+/// Unset where none was asked for.
+Readings lumaText(const MetricMoment& moment) {
+  const std::optional<hal::StreamFormat>& format = moment.status.camera.format;
+  if (!format) return one({});
+  if (format->luma) return one(*format->luma);
+  return format->lumaNote.empty() ? one({}) : one(format->lumaNote);
+}
+
 StateReading framePath(const CameraPath& path) {
   StateReading state{.names = {}, .current = static_cast<std::size_t>(path.frames.path)};
   for (int i = 0; i <= static_cast<int>(gpu::FramePath::kImported); ++i) {
@@ -253,6 +261,9 @@ std::vector<Metric> cameraMetrics() {
          const std::optional<hal::StreamFormat>& format = m.status.camera.format;
          return format && !format->memoryNote.empty() ? one(format->memoryNote) : one({});
        }},
+      {kCamera, "luma", "", kText, kNoUnit,
+       "Size of the second image that it makes of each frame for trackers, or why it makes none.",
+       [](Moment m) { return lumaText(m); }},
   };
 }
 
@@ -319,8 +330,11 @@ std::vector<Metric> paintingMetrics() {
        "Buffers of the camera that the GPU may still be reading.",
        [](Moment m) { return ofPath(m, [](const CameraPath& p) { return p.frames.heldLeases; }); }},
       {kPainting, "luma", "", kState, kNoUnit,
-       "Where trackers read the frame's brightness: nowhere, in the frame's memory, or in a copy.",
+       "Where trackers read the frame's brightness: nowhere, in the frame's memory, in a second "
+       "stream of the camera, in what the GPU read back, or in a copy.",
        [](Moment m) { return ofPath(m, lumaSource); }},
+      {kPainting, "luma_reason", "", kText, kNoUnit, "Why they read it there.",
+       [](Moment m) { return ofPath(m, [](const CameraPath& p) { return p.lumaReason; }); }},
       {kPainting, "stages", "stage", kSummary, kMs,
        "Time that each stage takes of a frame's latency.",
        [](Moment m) { return paintStages(m.status.painting); }, "stage_seconds"},
