@@ -41,6 +41,9 @@ struct StreamRequest {
   CameraControls controls;
   /// Memory for its frames; null: the device's own. A camera that cannot use it takes its own.
   std::shared_ptr<FrameAllocator> allocator = nullptr;
+  /// Asks for a second, small image of each frame, for trackers (CapturedFrame::luma): the longer
+  /// side, in px. A camera that makes none, or whose frames are no larger, delivers none.
+  std::optional<int> lumaSidePx = std::nullopt;
 };
 
 /// Who has allocated the memory of frames.
@@ -63,6 +66,9 @@ struct StreamFormat {
   /// Where its frames lie, but for copies that are made while all buffers are leased.
   FrameMemory memory = FrameMemory::kProcessor;
   std::string memoryNote;  ///< the allocator's name, or why it was not used; may be empty
+  /// Of CapturedFrame::luma: kGrey8; unset: frames have none.
+  std::optional<FrameFormat> luma = std::nullopt;
+  std::string lumaNote;  ///< why they have none although it was asked for; may be empty
 };
 
 struct CameraIdentity {

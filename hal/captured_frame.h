@@ -43,9 +43,12 @@ struct LinkCounts {
 /// For a GPU, the planes lie in `dmaBufs` as the pixel format's drmFourccOf() in the layout of
 /// `modifier`, in the colours of `image.format.encoding`. What was imported is kept by `buffer`.
 struct CapturedFrame {
-  FrameImage image;                    ///< its pixels are mapped on demand, while `lease` is held
-  std::array<DmaBufPlane, 3> dmaBufs;  ///< one an image plane, where the driver has them
-  BufferIdentity buffer;               ///< set wherever dmaBufs are
+  FrameImage image;  ///< its pixels are mapped on demand, while `lease` is held
+  /// A smaller image (kGrey8) of the same moment and the same view, to the px, which a camera has
+  /// made beside the frame for trackers: in all frames of a stream, or in none.
+  std::optional<FrameImage> luma;
+  std::array<DmaBufPlane, 3> dmaBufs;        ///< one an image plane, where the driver has them
+  BufferIdentity buffer;                     ///< set wherever dmaBufs are
   std::uint64_t modifier = kLinearModifier;  ///< of the dma-bufs (drm_fourcc.h)
   std::uint64_t sequence = 0;                ///< counts frames the device made, from 0
   std::uint64_t droppedBefore = 0;           ///< frames lost between the last one and this

@@ -72,6 +72,8 @@ struct LiveJob {
   /// Reads the configuration again, after ReloadSignal::take(). Throws hal::Failure and
   /// config::ConfigError. Null: the signal is not looked for.
   std::function<Reload()> reload;
+
+  bool tracksTags() const { return !scene.tags.empty() || !inputs.cards.empty(); }
 };
 
 }  // namespace pleinair::app

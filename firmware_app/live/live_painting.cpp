@@ -56,6 +56,14 @@ constexpr hal::Duration kWindowPatience = 1s;
 /// Part of the two seconds that ending may take; the rest is for the exit itself.
 constexpr hal::Duration kStopPatience = 1500ms;
 
+/// What is asked of the camera. Tags are found in whole frames; all else that trackers do, they do
+/// in an image of this size, which some cameras make.
+hal::StreamRequest streamOf(const LiveJob& job) {
+  hal::StreamRequest request = job.request;
+  if (!job.tracksTags()) request.lumaSidePx = kTrackedSidePx;
+  return request;
+}
+
 /// The life of a live pipeline, from waiting for its camera to its closing line, with its status
 /// server and reports. Main thread.
 class LivePainting {
@@ -65,7 +73,7 @@ class LivePainting {
         controls_({job.options.style, startParameters(job.options)}),
         reporter_(qualityNames()),
         input_(job, controls_, reporter_),
-        supervisor_(*job.selector, *job.clock, {}, job.request),
+        supervisor_(*job.selector, *job.clock, {}, streamOf(job)),
         pipeline_(supervisor_, *job.clock),
         outputs_(job, pipeline_, reporter_, openFrameLog()),
         snapshots_(job.snapshots, controls_, input_, notifier()),
@@ -280,20 +288,19 @@ class LivePainting {
   std::unique_ptr<runtime::FramePainter> makePainter(
       const std::vector<hal::OutputFormat>& formats) {
     const std::shared_ptr<const LiveParameters> start = controls_.parameters();
-    const PainterOptions options{
-        .pictureSize = outputs_.pictureSize(),
-        .scene = job_.scene,
-        .style = start->style,
-        .tracksTags = !job_.scene.tags.empty() || !job_.inputs.cards.empty(),
-        .shaderDirectory = job_.options.shaderDirectory,
-        .passTiming = gpu::PassTiming::kSampled,
-        .expectedFormat = stream_.frame,
-        .qualityLevels = job_.runtime.quality != qualityNames().front(),
-        .overlay = job_.procedure != nullptr,
-        .machine = job_.machine,
-        .doubtfulTags = procedure_ ? procedure_->doubtfulTags() : nullptr,
-        .isCancelled = [this] { return isStopping_ || isSignalled_(); },
-        .windows = outputs_.windowDisplay()};
+    const PainterOptions options{.pictureSize = outputs_.pictureSize(),
+                                 .scene = job_.scene,
+                                 .style = start->style,
+                                 .tracksTags = job_.tracksTags(),
+                                 .shaderDirectory = job_.options.shaderDirectory,
+                                 .passTiming = gpu::PassTiming::kSampled,
+                                 .expectedFormat = stream_.frame,
+                                 .qualityLevels = job_.runtime.quality != qualityNames().front(),
+                                 .overlay = job_.procedure != nullptr,
+                                 .machine = job_.machine,
+                                 .doubtfulTags = procedure_ ? procedure_->doubtfulTags() : nullptr,
+                                 .isCancelled = [this] { return isStopping_ || isSignalled_(); },
+                                 .windows = outputs_.windowDisplay()};
     return std::make_unique<LivePainter>(options, formats, controls_, start,
                                          procedure_ ? procedure_->machine() : MachinePlace());
   }

@@ -57,7 +57,8 @@ std::variant<SupervisedFrame, FrameRefusal> SessionFrames::take(CapturedFrame fr
 std::optional<FrameRefusal> SessionFrames::refusalOf(const CapturedFrame& frame,
                                                      TimePoint now) const {
   if (frame.health == FrameHealth::kIncomplete) return FrameRefusal::kIncomplete;
-  if (frame.health == FrameHealth::kCorrupt || !frame.image.isComplete()) {
+  if (frame.health == FrameHealth::kCorrupt || !frame.image.isComplete() ||
+      (frame.luma && !frame.luma->isComplete())) {
     return FrameRefusal::kCorrupt;
   }
   if (lastTime_ && frame.captureTime <= *lastTime_) return FrameRefusal::kMisTimed;

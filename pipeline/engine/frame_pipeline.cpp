@@ -83,6 +83,7 @@ FramePipeline::FramePipeline(const PainterOptions& options, PainterGl gl)
       library_(makeLibrary(options)),
       timer_(options.passTiming, &gl_.info),
       frames_(library_, gl_.info, testHook_),
+      luma_(library_, gl_.info, testHook_),
       renderer_(library_, options.scene),
       bufferViewer_(library_),
       style_(styles::makeStyle(options.style, library_)),
@@ -225,16 +226,15 @@ hal::Result<Picture> FramePipeline::paintChecked(const hal::CapturedFrame& frame
   timer_.beginFrame();
   tracking::TrackingResult tracked;
   const scene::ArFrameNeeds needs = needsOf(parameters.view);
-  std::optional<hal::FrameMapping> mapped;  // for as long as trackers read the frame in place
-  takeLuma(frame, needs, mapped);
   const Level& level = levels_[parameters.quality];
   {
     const auto scope = timer_.measure("camera picture");
     camera_ = &frames_.show(frame, level.size, fitTo(level, frame.image.format.size));
   }
+  const std::optional<hal::FrameMapping> mapped = takeLuma(frame, needs);
   const tracking::ImageMotion* const motion = measureMotion(frame.sequence, needs);
   if (motion != nullptr && motion->isCut) forgetPast();
-  if (tracker_) tracked = tracker_->track(luma_, frame.captureTime);
+  if (tracker_) tracked = tracker_->track(luma_.luma(), frame.captureTime);
   takeOverlay(parameters);
   const scene::ArFrame composed = compose(frame, tracked, level, needs, motion);
   composed_ = composed.colour;
@@ -289,24 +289,14 @@ void FramePipeline::drawOverlay(const scene::ArFrame& frame,
                               .tracked = &tracked});
 }
 
-/// Luma for the trackers, if any is at work. Memory that a device shares may be uncached, where the
-/// processor reads 30 times slower and trackers read several times: it is read once.
-void FramePipeline::takeLuma(const hal::CapturedFrame& frame, scene::ArFrameNeeds needs,
-                             std::optional<hal::FrameMapping>& mapped) {
-  const bool isRead = tracker_ || needs.canvas || needs.measuredMotion;
-  if (!isRead) {
-    cameraPath_.luma = LumaSource::kNone;
-    return;
+/// Luma for the trackers, if any is at work. Tags are found in the whole frame.
+std::optional<hal::FrameMapping> FramePipeline::takeLuma(const hal::CapturedFrame& frame,
+                                                         scene::ArFrameNeeds needs) {
+  if (tracker_ || needs.canvas || needs.measuredMotion) {
+    return luma_.take(frame, frames_, tracker_.has_value());
   }
-  mapped.emplace(frame.image.map());
-  if (!frame.buffer) {
-    luma_.take(mapped->view());
-    cameraPath_.luma = LumaSource::kInPlace;
-    return;
-  }
-  luma_.takeCopy(mapped->view());
-  cameraPath_.luma = LumaSource::kCopy;
-  mapped.reset();
+  luma_.skip();
+  return std::nullopt;
 }
 
 scene::ArFrameNeeds FramePipeline::needsOf(const std::string& view) const {
@@ -350,7 +340,7 @@ const tracking::ImageMotion* FramePipeline::measureMotion(std::uint64_t sequence
                                                           scene::ArFrameNeeds needs) {
   if (!needs.canvas && !needs.measuredMotion) return nullptr;
   const auto scope = timer_.measure("follow picture");
-  return &imageMotion_.follow(luma_, sequence);
+  return &imageMotion_.follow(luma_.luma(), sequence);
 }
 
 /// Adds the motion of the camera image, and the canvas' motion in px of the full picture.

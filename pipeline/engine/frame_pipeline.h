@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/engine/frame_luma.h"
 #include "pipeline/engine/open_readback.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/gpu/aspect_fill.h"
@@ -23,7 +24,6 @@
 #include "pipeline/scene/render/ar_frame_renderer.h"
 #include "pipeline/scene/render/buffer_views.h"
 #include "pipeline/styles/style.h"
-#include "pipeline/tracking/image/luma.h"
 #include "pipeline/tracking/motion/canvas_motion.h"
 #include "pipeline/tracking/motion/image_motion_estimator.h"
 #include "pipeline/tracking/pose/tracker.h"
@@ -73,8 +73,8 @@ class FramePipeline {
   hal::Result<void> checkQuality(std::size_t quality) const;
   hal::Result<void> checkFrame(const hal::CapturedFrame& frame, const PaintParameters& parameters);
   hal::Result<void> adaptTo(hal::FrameSize frameSize);
-  void takeLuma(const hal::CapturedFrame& frame, scene::ArFrameNeeds needs,
-                std::optional<hal::FrameMapping>& mapped);
+  std::optional<hal::FrameMapping> takeLuma(const hal::CapturedFrame& frame,
+                                            scene::ArFrameNeeds needs);
   glm::dvec2 pixelsOfFull(const Level& level) const;
   gpu::AspectFill fitTo(const Level& level, hal::FrameSize frameSize) const;
   scene::ArFrame compose(const hal::CapturedFrame& frame, const tracking::TrackingResult& tracked,
@@ -114,6 +114,7 @@ class FramePipeline {
   gpu::ShaderLibrary library_;
   gpu::PassTimer timer_;
   gpu::CameraFrames frames_;
+  FrameLuma luma_;  // of the frame being painted
   CameraPath cameraPath_;
   scene::ArFrameRenderer renderer_;
   scene::BufferViewer bufferViewer_;
@@ -121,7 +122,6 @@ class FramePipeline {
   config::ParameterValues defaults_;  // of the style
   hal::FrameSize frameSize_;          // of the last frame, which the next two members are for
   std::optional<tracking::Tracker> tracker_;
-  tracking::LumaFrame luma_;  // of the frame being painted
   tracking::CanvasMotion motion_;
   tracking::ImageMotionEstimator imageMotion_;
   tracking::ImageSegmenter segmenter_;

@@ -230,21 +230,12 @@ hal::Result<std::optional<hal::Image>> Painter::movers() const {
   }
 }
 
-std::string_view toString(LumaSource source) {
-  switch (source) {
-    case LumaSource::kNone:
-      return "none";
-    case LumaSource::kInPlace:
-      return "in place";
-    case LumaSource::kCopy:
-      return "copy";
-  }
-  return "unknown";
-}
-
 const CameraPath& Painter::cameraPath() const {
-  pipeline_->cameraPath_.frames = pipeline_->frames_.status();
-  return pipeline_->cameraPath_;
+  FramePipeline& p = *pipeline_;
+  p.cameraPath_.frames = p.frames_.status();
+  p.cameraPath_.luma = p.luma_.source();
+  p.cameraPath_.lumaReason = p.luma_.reason();
+  return p.cameraPath_;
 }
 
 void Painter::reset() {

@@ -15,7 +15,7 @@
 #include "hal/error.h"
 #include "hal/image.h"
 #include "hal/surface.h"
-#include "pipeline/gpu/camera_frames.h"
+#include "pipeline/engine/camera_path.h"
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/gpu/gpu_loss.h"
 #include "pipeline/gpu/imported_texture.h"
@@ -100,20 +100,6 @@ struct PaintParameters {
   /// What is drawn over the finished picture, and over no other view: a step of a procedure, for
   /// PainterOptions::machine. Made for the full picture's size. Null: nothing.
   std::shared_ptr<const overlay::OverlayContent> overlay = nullptr;
-};
-
-/// Where trackers have the luma of a frame from.
-enum class LumaSource {
-  kNone,     ///< nothing tracks
-  kInPlace,  ///< the frame's own memory
-  kCopy,     ///< one copy of it, since memory that a device shares may be slow to read
-};
-std::string_view toString(LumaSource source);
-
-/// How the frames of the camera reach the GPU and the trackers.
-struct CameraPath {
-  gpu::FramePathStatus frames;
-  LumaSource luma = LumaSource::kNone;
 };
 
 /// A debug view, which can be painted instead of the finished picture.

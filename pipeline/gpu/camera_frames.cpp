@@ -86,6 +86,7 @@ CameraFrames::~CameraFrames() {
 const Texture& CameraFrames::show(const hal::CapturedFrame& frame, hal::FrameSize size,
                                   const AspectFill& fit) {
   releaseRead();
+  shown_.reset();
   const bool isNew =
       frame.buffer.pool != pool_ || frame.image.format != format_ || frame.modifier != modifier_;
   // A copy that a camera makes while all its buffers are leased is no new memory.
@@ -104,6 +105,7 @@ const Texture& CameraFrames::show(const hal::CapturedFrame& frame, hal::FrameSiz
     }
     const Texture& shown = uploader_.show(frame.image.format, imported(frame).planes, size, fit);
     hold(frame);
+    shown_ = frame.buffer.index;
     ++status_.imported;
     return shown;
   } catch (const hal::Failure& failure) {
@@ -210,6 +212,16 @@ void CameraFrames::hold(const hal::CapturedFrame& frame) {
   if (testHook_.returnsFramesEarly) return;
   readings_.push_back({.lease = frame.lease, .fence = Fence::insert()});
   status_.heldLeases = readings_.size();
+}
+
+std::span<const Texture> CameraFrames::importedPlanes() const {
+  if (!shown_) return {};
+  return std::span(buffers_[*shown_].planes)
+      .first(static_cast<std::size_t>(planeCount(format_.pixelFormat)));
+}
+
+void CameraFrames::holdLonger() {
+  if (shown_ && !readings_.empty()) readings_.back().fence = Fence::insert();
 }
 
 void CameraFrames::releaseRead() {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,13 @@ class CameraFrames {
   /// As FrameUploader::upload(). Precondition: frame.image.isComplete().
   const Texture& show(const hal::CapturedFrame& frame, hal::FrameSize size, const AspectFill& fit);
 
+  /// The planes of the last frame, as importedPlane() has them, if it was imported; else none.
+  /// Valid until the next show().
+  std::span<const Texture> importedPlanes() const;
+  /// The GPU was given more work that reads the last frame's buffer: its lease is held until that
+  /// is done, too.
+  void holdLonger();
+
   const FramePathStatus& status() const { return status_; }
   /// For frames that no camera has made: warming up.
   FrameUploader& uploader() { return uploader_; }
@@ -107,6 +115,7 @@ class CameraFrames {
   hal::TimePoint began_;
   bool isConfirmed_ = false;             ///< a buffer has come round
   std::vector<ImportedBuffer> buffers_;  ///< by BufferIdentity::index
+  std::optional<std::uint32_t> shown_;   ///< the buffer of the last frame, if it was imported
   std::vector<Reading> readings_;        ///< oldest first
 };
 

@@ -179,6 +179,31 @@ TEST_P(CameraConformance, MapsAFrameAsOftenAsWanted) {
   EXPECT_TRUE(outer.view().isComplete());
 }
 
+TEST_P(CameraConformance, MakesASecondImageOfEveryFrameOrOfNone) {
+  std::unique_ptr<Camera> camera = make();
+  constexpr int kSidePx = 16;
+  const StreamFormat format = startOrFail(*camera, {.lumaSidePx = kSidePx});
+  if (format.luma) {
+    EXPECT_EQ(format.luma->pixelFormat, PixelFormat::kGrey8);
+    EXPECT_LT(format.luma->size.pixels(), format.frame.size.pixels());
+  }
+  const std::vector<CapturedFrame> taken = frames(*camera, format, framesToAskFor());
+  EXPECT_EQ(taken.size(), framesToAskFor());
+  std::vector<std::vector<std::uint8_t>> before;
+  for (const CapturedFrame& frame : taken) {
+    EXPECT_EQ(frame.luma.has_value(), format.luma.has_value());
+    if (!frame.luma) continue;
+    EXPECT_EQ(frame.luma->format, *format.luma);
+    ASSERT_TRUE(frame.luma->isComplete());
+    before.push_back(bytesOf(frame.luma->map().view()));
+  }
+  // It is leased with its frame.
+  camera.reset();
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_TRUE(bytesOf(taken[i].luma->map().view()) == before[i]);
+  }
+}
+
 TEST_P(CameraConformance, CountsAndTimesRise) {
   const std::unique_ptr<Camera> camera = make();
   const TimePoint before = clock_.now();

@@ -42,7 +42,7 @@ class ScriptedHost {
     const HostChannel& answers = channels_[0] = HostChannel(std::move((*calls)[1]));
     const HostChannel& notes = channels_[1] = HostChannel(std::move((*frames)[1]));
     for (const Call call : {Call::kOpen, Call::kDescription, Call::kFormats, Call::kConfigure,
-                            Call::kPeriods, Call::kStart}) {
+                            Call::kConfigure, Call::kPeriods, Call::kStart}) {
       send(answers, answerTo(call, input), call == Call::kStart);
     }
     for (int i = 0; i < 16; ++i) send(notes, note(input), false);
@@ -70,6 +70,34 @@ class ScriptedHost {
     return bytes;
   }
 
+  /// Mostly with a second image of half the size.
+  static StreamAnswer answerWith(std::uint32_t fourcc, hal::FrameSize size, fuzz::Bytes& input) {
+    const auto stride = [&] {
+      return input.once(4) ? input.number<std::uint64_t>() : std::size_t{1024};
+    };
+    StreamAnswer answer{.fourcc = fourcc, .size = size, .strideBytes = stride()};
+    if (input.once(4)) return answer;
+    answer.luma = StreamImage{
+        .fourcc = input.once(4) ? input.number<std::uint32_t>() : lumaFourccs()[input.upTo(3)],
+        .size = {size.width / 2, size.height / 2},
+        .strideBytes = stride()};
+    if (input.once(8)) answer.luma->size.height = input.number<std::int32_t>();
+    return answer;
+  }
+
+  static SharedBuffers buffers(std::size_t count, fuzz::Bytes& input) {
+    SharedBuffers buffers(count);
+    for (auto& planes : buffers) {
+      for (std::size_t i = 1 + input.upTo(4); i > 0; --i) {
+        planes.push_back({.descriptor = input.once(8) ? input.number<std::uint32_t>() : 0,
+                          .offset = input.once(4) ? input.number<std::uint64_t>()
+                                                  : input.number<std::uint16_t>() % kMemory,
+                          .length = input.once(4) ? input.number<std::uint64_t>() : kMemory});
+      }
+    }
+    return buffers;
+  }
+
   static std::vector<std::uint8_t> answerTo(Call call, fuzz::Bytes& input) {
     MessageWriter message;
     message.put(call);
@@ -85,26 +113,17 @@ class ScriptedHost {
         message.put(std::vector<OfferedFormat>{{.fourcc = fourcc, .sizes = {size}}});
         break;
       case Call::kConfigure:
-        message.put(StreamAnswer{
-            .fourcc = fourcc,
-            .size = size,
-            .strideBytes = input.once(4) ? input.number<std::uint64_t>() : std::size_t{1024}});
+        message.put(answerWith(fourcc, size, input));
         break;
       case Call::kPeriods:
         message.put(std::optional<std::vector<hal::Duration>>(
             std::vector<hal::Duration>{hal::Duration(input.number<std::uint32_t>()), 100ms}));
         break;
       case Call::kStart: {
-        SharedBuffers buffers(1 + input.upTo(8));
-        for (auto& planes : buffers) {
-          for (std::size_t i = 1 + input.upTo(4); i > 0; --i) {
-            planes.push_back({.descriptor = input.once(8) ? input.number<std::uint32_t>() : 0,
-                              .offset = input.once(4) ? input.number<std::uint64_t>()
-                                                      : input.number<std::uint16_t>() % kMemory,
-                              .length = input.once(4) ? input.number<std::uint64_t>() : kMemory});
-          }
-        }
-        message.put(buffers);
+        const std::size_t count = 1 + input.upTo(8);
+        SharedStream stream{.frames = buffers(count, input), .luma = {}};
+        if (input.once(2)) stream.luma = buffers(input.once(8) ? input.upTo(8) : count, input);
+        message.put(stream);
         break;
       }
       default:
@@ -131,6 +150,11 @@ class ScriptedHost {
   StartedHost started_;
 };
 
+void touch(const hal::CapturedFrame& frame) {
+  fuzz::touch(frame.image.map().view());
+  if (frame.luma) fuzz::touch(frame.luma->map().view());
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -139,8 +163,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   HostedLibrary library([&] { return host.take(); });
   hal::SteppedClock clock(hal::TimePoint(100s));
   LibcameraCamera camera("sensor", {}, library, clock);
-  const auto format =
-      camera.start({.size = hal::FrameSize{64, 48}, .framePeriod = hal::Duration(40ms)});
+  const auto format = camera.start(
+      {.size = hal::FrameSize{64, 48}, .framePeriod = hal::Duration(40ms), .lumaSidePx = 8});
   if (!format) {
     fuzz::expectOneLine(format.error().message());
     return 0;
@@ -150,11 +174,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     hal::NextFrame next = camera.next(clock.now());
     auto* const frame = std::get_if<hal::CapturedFrame>(&next);
     if (frame == nullptr) break;
-    fuzz::touch(frame->image.map().view());
+    touch(*frame);
     held.push_back(std::move(*frame));
     if (held.size() > 3) held.erase(held.begin());
   }
   camera.stop();
-  for (const hal::CapturedFrame& each : held) fuzz::touch(each.image.map().view());
+  for (const hal::CapturedFrame& each : held) touch(each);
   return 0;
 }

@@ -69,8 +69,11 @@ class FakeStream final : public Stream {
              hal::Clock& clock)
       : sensor_(sensor), open_(open), clock_(clock), due_(clock.now() + sensor.period) {
     ++open_;
+    const StreamImage frame{
+        .fourcc = answer.fourcc, .size = answer.size, .strideBytes = answer.strideBytes};
     for (int i = 0; i < buffers; ++i) {
-      memory_.push_back(allocate(answer));
+      memory_.push_back(allocate(frame));
+      if (answer.luma) luma_.push_back(allocate(*answer.luma));
       free_.push_back(static_cast<std::size_t>(i));
     }
   }
@@ -79,6 +82,10 @@ class FakeStream final : public Stream {
   std::size_t bufferCount() const override { return memory_.size(); }
   std::shared_ptr<const BufferMemory> memory(std::size_t index) const override {
     return {memory_[index], &memory_[index]->view};
+  }
+  std::shared_ptr<const BufferMemory> lumaMemory(std::size_t index) const override {
+    if (luma_.empty()) return nullptr;
+    return {luma_[index], &luma_[index]->view};
   }
 
   std::optional<Completed> pop(Duration timeout) override {
@@ -111,7 +118,7 @@ class FakeStream final : public Stream {
   bool isLost() const override { return isLost_; }
 
  private:
-  std::shared_ptr<OwnedMemory> allocate(const StreamAnswer& answer) const {
+  std::shared_ptr<OwnedMemory> allocate(const StreamImage& answer) const {
     const FrameLayout& layout = *findLayout(answer.fourcc);
     const int planes = planeCount(layout.pixelFormat);
     std::array<std::size_t, 3> sizes{};
@@ -136,26 +143,33 @@ class FakeStream final : public Stream {
     completed.sequence = sequence_++;
     completed.timestamp = frame.timestamp.value_or(clock_.now().time_since_epoch());
     completed.sensorTime = frame.sensorTime;
-    OwnedMemory& memory = *memory_[completed.index];
-    const auto last = static_cast<std::size_t>(memory.view.planeCount - 1);
-    for (std::size_t plane = 0; plane <= last; ++plane) {
-      completed.usedBytes.at(plane) = memory.bytes.at(plane).size();
-    }
-    completed.usedBytes.at(last) -= frame.missingBytes;
-    for (std::size_t plane = 0; plane < 3; ++plane) {
-      for (std::size_t i = 0; i < memory.bytes.at(plane).size(); ++i) {
-        memory.bytes.at(plane)[i] = static_cast<std::uint8_t>(16 * plane + i + number_);
-      }
+    completed.usedBytes = fill(*memory_[completed.index], 0, frame.missingBytes);
+    if (!luma_.empty()) {
+      completed.lumaUsedBytes = fill(*luma_[completed.index], 128, frame.missingLumaBytes);
     }
     ++number_;
     return completed;
+  }
+
+  std::array<std::size_t, 3> fill(OwnedMemory& memory, std::size_t first, std::size_t missing) {
+    std::array<std::size_t, 3> used{};
+    const auto last = static_cast<std::size_t>(memory.view.planeCount - 1);
+    for (std::size_t plane = 0; plane <= last; ++plane)
+      used.at(plane) = memory.bytes.at(plane).size();
+    used.at(last) -= missing;
+    for (std::size_t plane = 0; plane < 3; ++plane) {
+      for (std::size_t i = 0; i < memory.bytes.at(plane).size(); ++i) {
+        memory.bytes.at(plane)[i] = static_cast<std::uint8_t>(first + 16 * plane + i + number_);
+      }
+    }
+    return used;
   }
 
   FakeSensor sensor_;
   int& open_;
   hal::Clock& clock_;
   hal::TimePoint due_;
-  std::vector<std::shared_ptr<OwnedMemory>> memory_;
+  std::vector<std::shared_ptr<OwnedMemory>> memory_, luma_;
   std::mutex mutex_;  // guards the following
   std::deque<std::size_t> free_;
   std::uint64_t number_ = 0;
@@ -175,6 +189,7 @@ class FakeDevice final : public Device {
   std::vector<OfferedFormat> formats() override { return sensor_.formats; }
   Result<StreamAnswer> configure(const StreamWish& wish) override {
     told_.wish = wish;
+    ++told_.configured;
     answer_ = {.fourcc = wish.fourcc, .size = wish.size, .encoding = sensor_.encoding};
     const auto found = sensor_.adjusts.find({wish.size.width, wish.size.height});
     if (found != sensor_.adjusts.end()) answer_.size = found->second;
@@ -186,6 +201,14 @@ class FakeDevice final : public Device {
                                   : rowBytes(layout->pixelFormat, 0, answer_.size.width));
     answer_.isOrientationKept =
         sensor_.keepsOrientation || wish.orientation == Orientation::kUpright;
+    if (wish.luma && sensor_.luma) {
+      const hal::FrameSize size = sensor_.lumaSize.value_or(*wish.luma);
+      answer_.luma =
+          StreamImage{.fourcc = *sensor_.luma,
+                      .size = size,
+                      .strideBytes = static_cast<std::size_t>(size.width) + sensor_.rowPadding};
+      if (sensor_.changesBesideLuma) --answer_.size.height;
+    }
     return answer_;
   }
   std::optional<ControlRange> range(Control control) override {

@@ -18,7 +18,8 @@ struct FakeSensorFrame {
   bool isFaulty = false;
   std::optional<hal::Duration> timestamp;
   std::optional<hal::Duration> sensorTime;
-  std::size_t missingBytes = 0;  ///< of the last plane, which the driver has not filled
+  std::size_t missingBytes = 0;      ///< of the last plane, which the driver has not filled
+  std::size_t missingLumaBytes = 0;  ///< the same of the second image
   bool isLost = false;    ///< the camera is unplugged in place of this frame, and libcamera says so
   bool isSilent = false;  ///< from here on nothing comes, and nothing is said
 };
@@ -37,7 +38,11 @@ struct FakeSensor {
   bool arePlanesSeparate = false;
   bool isShared = false;  ///< buffers have descriptors, which other processes can map
   bool keepsOrientation = true;
-  std::size_t missingBytes = 0;  ///< by which buffers are too small
+  /// The layout of a second image, DRM's; unset: it makes none.
+  std::optional<std::uint32_t> luma;
+  std::optional<hal::FrameSize> lumaSize;  ///< whatever was asked for
+  bool changesBesideLuma = false;          ///< its frames have a row less beside a second image
+  std::size_t missingBytes = 0;            ///< by which buffers are too small
   hal::ColorEncoding encoding;
   std::map<hal::libcamera::Control, hal::libcamera::ControlRange> ranges;
   std::vector<hal::libcamera::Control> automatic;
@@ -47,8 +52,8 @@ struct FakeSensor {
   std::map<std::uint64_t, FakeSensorFrame> frames;
 };
 
-/// A library with fake cameras. Byte i of plane p of frame n is 16 p + i + n. One thread; buffers
-/// may be given back on another.
+/// A library with fake cameras. Byte i of plane p of frame n is 16 p + i + n, and of its second
+/// image 128 + 16 p + i + n. One thread; buffers may be given back on another.
 class FakeLibcamera final : public hal::libcamera::Library {
  public:
   explicit FakeLibcamera(hal::Clock& clock) : clock_(clock) {}
@@ -64,6 +69,7 @@ class FakeLibcamera final : public hal::libcamera::Library {
     hal::libcamera::StreamWish wish;
     hal::libcamera::StartSettings settings;
     int open = 0;  ///< devices and streams that are open
+    int configured = 0;
   };
   Told told;
 

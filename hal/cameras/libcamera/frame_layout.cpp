@@ -1,6 +1,7 @@
 #include "hal/cameras/libcamera/frame_layout.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <string>
 
@@ -52,6 +53,27 @@ std::size_t chromaStride(PixelFormat format, int plane, std::size_t strideBytes)
 
 std::span<const FrameLayout> frameLayouts() {
   return kLayouts;
+}
+
+std::span<const std::uint32_t> lumaFourccs() {
+  static constexpr std::array kFourccs{fourccOf("R8  "), fourccOf("YU12"), fourccOf("NV12")};
+  return kFourccs;
+}
+
+std::optional<FrameSize> lumaSizeFor(FrameSize frame, int sidePx) {
+  const int longer = std::max(frame.width, frame.height);
+  if (sidePx < 2 || longer <= sidePx) return std::nullopt;
+  const auto even = [&](int side) {
+    return std::max(2, 2 * static_cast<int>(std::lround(0.5 * side * sidePx / longer)));
+  };
+  return FrameSize{even(frame.width), even(frame.height)};
+}
+
+bool isReduced(FrameSize image, FrameSize frame) {
+  if (image.width <= 0 || image.height <= 0) return false;
+  if (image.width > frame.width || image.height > frame.height || image == frame) return false;
+  return std::abs(std::int64_t{image.width} * frame.height -
+                  std::int64_t{image.height} * frame.width) <= std::max(frame.width, frame.height);
 }
 
 std::string fourccName(std::uint32_t fourcc) {

@@ -24,6 +24,14 @@ struct FrameLayout {
 
 /// The supported formats, the one that is cheapest to paint first.
 std::span<const FrameLayout> frameLayouts();
+/// Those of a second image whose first plane is luma, the one with the fewest bytes first.
+std::span<const std::uint32_t> lumaFourccs();
+/// The size of a second image of a frame, of the same shape, with even sides: the longer one of
+/// `sidePx`. Nothing where the frame is no larger.
+std::optional<FrameSize> lumaSizeFor(FrameSize frame, int sidePx);
+/// Whether an image of this size shows the same part of the view as the frame, which is larger: its
+/// shape is the frame's, to a px of the image.
+bool isReduced(FrameSize image, FrameSize frame);
 /// "NV12"; bytes that are no letters as "?".
 std::string fourccName(std::uint32_t fourcc);
 /// Null if it is not supported.

@@ -39,6 +39,13 @@ void MessageWriter::put(const StreamWish& wish) {
   put(wish.size);
   put(wish.buffers);
   put(wish.orientation);
+  put(wish.luma);
+}
+
+void MessageWriter::put(const StreamImage& image) {
+  put(image.fourcc);
+  put(image.size);
+  put(static_cast<std::uint64_t>(image.strideBytes));
 }
 
 void MessageWriter::put(const StreamAnswer& answer) {
@@ -50,6 +57,7 @@ void MessageWriter::put(const StreamAnswer& answer) {
   put(answer.encoding.primaries);
   put(answer.encoding.transfer);
   put(answer.isOrientationKept);
+  put(answer.luma);
 }
 
 void MessageWriter::put(const ControlRange& range) {
@@ -76,12 +84,18 @@ void MessageWriter::put(const Completed& completed) {
   put(completed.timestamp);
   put(completed.sensorTime);
   for (const std::size_t each : completed.usedBytes) put(static_cast<std::uint64_t>(each));
+  for (const std::size_t each : completed.lumaUsedBytes) put(static_cast<std::uint64_t>(each));
 }
 
 void MessageWriter::put(const SharedPlane& plane) {
   put(plane.descriptor);
   put(plane.offset);
   put(plane.length);
+}
+
+void MessageWriter::put(const SharedStream& stream) {
+  put(stream.frames);
+  put(stream.luma);
 }
 
 void MessageReader::take(bool& value) {
@@ -137,6 +151,15 @@ void MessageReader::take(StreamWish& wish) {
   take(wish.size);
   take(wish.buffers);
   take(wish.orientation, Orientation::kFlipped);
+  take(wish.luma);
+}
+
+void MessageReader::take(StreamImage& image) {
+  std::uint64_t stride = 0;
+  take(image.fourcc);
+  take(image.size);
+  take(stride);
+  image.strideBytes = stride;
 }
 
 void MessageReader::take(StreamAnswer& answer) {
@@ -150,6 +173,7 @@ void MessageReader::take(StreamAnswer& answer) {
   take(answer.encoding.primaries, ColorPrimaries::kOther);
   take(answer.encoding.transfer, ColorTransfer::kOther);
   take(answer.isOrientationKept);
+  take(answer.luma);
 }
 
 void MessageReader::take(ControlRange& range) {
@@ -185,10 +209,12 @@ void MessageReader::take(Completed& completed) {
   take(completed.sequence);
   take(completed.timestamp);
   take(completed.sensorTime);
-  for (std::size_t& each : completed.usedBytes) {
-    std::uint64_t bytes = 0;
-    take(bytes);
-    each = bytes;
+  for (auto* const used : {&completed.usedBytes, &completed.lumaUsedBytes}) {
+    for (std::size_t& each : *used) {
+      std::uint64_t bytes = 0;
+      take(bytes);
+      each = bytes;
+    }
   }
 }
 
@@ -196,6 +222,11 @@ void MessageReader::take(SharedPlane& plane) {
   take(plane.descriptor);
   take(plane.offset);
   take(plane.length);
+}
+
+void MessageReader::take(SharedStream& stream) {
+  take(stream.frames);
+  take(stream.luma);
 }
 
 }  // namespace pleinair::hal::libcamera

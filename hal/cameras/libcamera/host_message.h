@@ -45,6 +45,10 @@ struct SharedPlane {
 };
 /// The planes of each buffer.
 using SharedBuffers = std::vector<std::vector<SharedPlane>>;
+/// The buffers of a stream's frames, and those of their second images: as many, or none.
+struct SharedStream {
+  SharedBuffers frames, luma;
+};
 
 /// Longest message, in bytes.
 inline constexpr std::size_t kLongestMessage = 64 * 1024;
@@ -68,7 +72,9 @@ class MessageWriter {
   void put(const ControlRange& range);
   void put(const StartSettings& settings);
   void put(const Completed& completed);
+  void put(const StreamImage& image);
   void put(const SharedPlane& plane);
+  void put(const SharedStream& stream);
   template <class T>
   void put(const std::optional<T>& value) {
     put(value.has_value());
@@ -131,7 +137,9 @@ class MessageReader {
   void take(ControlRange& range);
   void take(StartSettings& settings);
   void take(Completed& completed);
+  void take(StreamImage& image);
   void take(SharedPlane& plane);
+  void take(SharedStream& stream);
   template <class T>
   void take(std::optional<T>& value) {
     bool isThere = false;

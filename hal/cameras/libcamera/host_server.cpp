@@ -86,20 +86,27 @@ class ServedStream {
   std::jthread pump_;  ///< ends first
 };
 
-/// The planes of the stream's buffers, with each of their descriptors once.
-std::pair<SharedBuffers, std::vector<int>> sharedBuffersOf(const Stream& stream) {
-  std::pair<SharedBuffers, std::vector<int>> shared;
+/// The planes of a buffer, whose descriptors are added to those of others, each once.
+std::vector<SharedPlane> sharedPlanesOf(const BufferMemory& memory, std::vector<int>& descriptors) {
+  std::vector<SharedPlane> planes;
+  for (std::size_t plane = 0; plane < static_cast<std::size_t>(memory.planeCount); ++plane) {
+    const int fd = memory.dmaBufs.at(plane);
+    const auto found = std::ranges::find(descriptors, fd);
+    planes.push_back({.descriptor = static_cast<std::uint32_t>(found - descriptors.begin()),
+                      .offset = memory.offsets.at(plane),
+                      .length = memory.planes.at(plane).size()});
+    if (found == descriptors.end()) descriptors.push_back(fd);
+  }
+  return planes;
+}
+
+std::pair<SharedStream, std::vector<int>> sharedStreamOf(const Stream& stream) {
+  std::pair<SharedStream, std::vector<int>> shared;
+  auto& [buffers, descriptors] = shared;
   for (std::size_t i = 0; i < stream.bufferCount(); ++i) {
-    const std::shared_ptr<const BufferMemory> memory = stream.memory(i);
-    auto& planes = shared.first.emplace_back();
-    for (std::size_t plane = 0; plane < static_cast<std::size_t>(memory->planeCount); ++plane) {
-      const int fd = memory->dmaBufs.at(plane);
-      const auto found = std::ranges::find(shared.second, fd);
-      planes.push_back({.descriptor = static_cast<std::uint32_t>(found - shared.second.begin()),
-                        .offset = memory->offsets.at(plane),
-                        .length = memory->planes.at(plane).size()});
-      if (found == shared.second.end()) shared.second.push_back(fd);
-    }
+    buffers.frames.push_back(sharedPlanesOf(*stream.memory(i), descriptors));
+    const std::shared_ptr<const BufferMemory> luma = stream.lumaMemory(i);
+    if (luma != nullptr) buffers.luma.push_back(sharedPlanesOf(*luma, descriptors));
   }
   return shared;
 }
@@ -194,7 +201,7 @@ class HostServer {
     return {};
   }
 
-  Result<SharedBuffers> start(Device& device, MessageReader& reader) {
+  Result<SharedStream> start(Device& device, MessageReader& reader) {
     StartSettings settings;
     std::uint32_t number = 0;
     reader.take(settings);
@@ -202,7 +209,7 @@ class HostServer {
     endStream();
     Result<std::unique_ptr<Stream>> stream = device.start(settings);
     if (!stream) return tl::unexpected(stream.error());
-    auto [buffers, descriptors] = sharedBuffersOf(**stream);
+    auto [buffers, descriptors] = sharedStreamOf(**stream);
     if (std::ranges::any_of(descriptors, [](int fd) { return fd < 0; })) {
       return tl::unexpected(
           Error{.kind = ErrorKind::kUnsupported, .problem = "has buffers that cannot be shared"});

@@ -26,9 +26,14 @@ constexpr Duration kCallLimit = 8s;
 constexpr Duration kStopLimit = 500ms;
 class HostedStream final : public Stream {
  public:
-  HostedStream(std::shared_ptr<Host> host, std::uint32_t number,
-               std::vector<std::shared_ptr<MappedBuffer>> buffers)
-      : host_(std::move(host)), number_(number), buffers_(std::move(buffers)) {}
+  using Buffers = std::vector<std::shared_ptr<MappedBuffer>>;
+
+  /// `luma`: one for each of `buffers`, or none.
+  HostedStream(std::shared_ptr<Host> host, std::uint32_t number, Buffers buffers, Buffers luma)
+      : host_(std::move(host)),
+        number_(number),
+        buffers_(std::move(buffers)),
+        luma_(std::move(luma)) {}
   ~HostedStream() override {
     // A stream that is lost is not stopped: libcamera 0.0.3 ends its process over it.
     if (isLost_) {
@@ -41,6 +46,10 @@ class HostedStream final : public Stream {
   std::size_t bufferCount() const override { return buffers_.size(); }
   std::shared_ptr<const BufferMemory> memory(std::size_t index) const override {
     return {buffers_[index], &buffers_[index]->memory};
+  }
+  std::shared_ptr<const BufferMemory> lumaMemory(std::size_t index) const override {
+    if (luma_.empty()) return nullptr;
+    return {luma_[index], &luma_[index]->memory};
   }
 
   std::optional<Completed> pop(Duration timeout) override {
@@ -104,7 +113,7 @@ class HostedStream final : public Stream {
 
   std::shared_ptr<Host> host_;
   std::uint32_t number_;
-  std::vector<std::shared_ptr<MappedBuffer>> buffers_;
+  Buffers buffers_, luma_;
   int pushFailure_ = 0;
   bool isLost_ = false;
   std::string lossText_;
@@ -133,22 +142,30 @@ class HostedDevice final : public Device {
 
   Result<std::unique_ptr<Stream>> start(const StartSettings& settings) override {
     const std::uint32_t number = ++streams_;
-    const auto shared = host_->call<SharedBuffers>(Call::kStart, kCallLimit, settings, number);
+    const auto shared = host_->call<SharedStream>(Call::kStart, kCallLimit, settings, number);
     if (!shared) return tl::unexpected(shared.error());
-    std::vector<std::shared_ptr<MappedBuffer>> buffers;
-    for (const std::vector<SharedPlane>& each : *shared) {
+    auto buffers = map(shared->frames);
+    if (!buffers) return tl::unexpected(buffers.error());
+    auto luma = map(shared->luma);
+    if (!luma) return tl::unexpected(luma.error());
+    host_->descriptors().clear();
+    if (buffers->empty() || (!luma->empty() && luma->size() != buffers->size())) {
+      return tl::unexpected(Error{.kind = ErrorKind::kIo, .problem = "has no buffers"});
+    }
+    return std::make_unique<HostedStream>(host_, number, *std::move(buffers), *std::move(luma));
+  }
+
+ private:
+  Result<HostedStream::Buffers> map(const SharedBuffers& shared) {
+    HostedStream::Buffers buffers;
+    for (const std::vector<SharedPlane>& each : shared) {
       auto mapped = map(each);
       if (!mapped) return tl::unexpected(mapped.error());
       buffers.push_back(*std::move(mapped));
     }
-    host_->descriptors().clear();
-    if (buffers.empty()) {
-      return tl::unexpected(Error{.kind = ErrorKind::kIo, .problem = "has no buffers"});
-    }
-    return std::make_unique<HostedStream>(host_, number, std::move(buffers));
+    return buffers;
   }
 
- private:
   Result<std::shared_ptr<MappedBuffer>> map(const std::vector<SharedPlane>& planes) {
     const std::vector<FileDescriptor>& descriptors = host_->descriptors();
     std::vector<BufferPlane> own;

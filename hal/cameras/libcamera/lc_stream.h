@@ -54,8 +54,9 @@ class Posts {
 /// The requests of a configured camera, with their buffers. The destructor stops the camera.
 class LibcameraStream final : public Stream {
  public:
+  /// `luma`: the stream of second images; null: there is none.
   LibcameraStream(std::shared_ptr<Manager> manager, std::shared_ptr<lc::Camera> camera,
-                  lc::Stream* stream);
+                  lc::Stream* stream, lc::Stream* luma);
   ~LibcameraStream() override;
 
   /// Allocates, starts and queues all; once. Errors: kIo and others of libcamera.
@@ -65,17 +66,25 @@ class LibcameraStream final : public Stream {
   std::shared_ptr<const BufferMemory> memory(std::size_t index) const override {
     return {buffers_[index], &buffers_[index]->memory};
   }
+  std::shared_ptr<const BufferMemory> lumaMemory(std::size_t index) const override {
+    if (luma_ == nullptr) return nullptr;
+    return {lumaBuffers_[index], &lumaBuffers_[index]->memory};
+  }
   std::optional<Completed> pop(Duration timeout) override;
   int push(std::size_t index) override;
   bool isLost() const override { return posts_.isLost(); }
 
  private:
+  Result<void> allocate(lc::Stream* stream, std::vector<std::shared_ptr<MappedBuffer>>& buffers);
+  Result<void> addRequest(std::size_t index);
+
   std::shared_ptr<Manager> manager_;
   std::shared_ptr<lc::Camera> camera_;
   lc::Stream* stream_;
+  lc::Stream* luma_;
   Posts posts_;
   std::unique_ptr<lc::FrameBufferAllocator> allocator_;
-  std::vector<std::shared_ptr<MappedBuffer>> buffers_;
+  std::vector<std::shared_ptr<MappedBuffer>> buffers_, lumaBuffers_;
   std::vector<std::unique_ptr<lc::Request>> requests_;
 };
 

@@ -39,6 +39,38 @@ std::array<DmaBufPlane, 3> dmaBufsOf(const BufferMemory& memory,
   return dmaBufs;
 }
 
+/// Precondition: one format.
+void copyRows(const ImageView& from, Image& to) {
+  for (int plane = 0; plane < planeCount(from.format.pixelFormat); ++plane) {
+    for (int y = 0; y < planeRows(from.format.pixelFormat, plane, from.format.size.height); ++y) {
+      std::ranges::copy(from.row(plane, y), to.row(plane, y).begin());
+    }
+  }
+}
+
+/// Why an answer with second images is not to be taken; empty: it is.
+std::string lumaProblem(const StreamAnswer& answer, const StreamAnswer& without) {
+  if (!answer.luma) return "libcamera makes one image of its frames";
+  const FrameSize size = answer.luma->size;
+  const FrameLayout* const layout = findLayout(answer.luma->fourcc);
+  const bool hasLuma =
+      layout != nullptr && std::ranges::count(lumaFourccs(), answer.luma->fourcc) > 0;
+  if (!hasLuma) return "its second image has no plane of luma: " + fourccName(answer.luma->fourcc);
+  if (!isReduced(size, answer.size)) {
+    return "its second image of " + std::to_string(size.width) + "x" + std::to_string(size.height) +
+           " px shows another part of the view";
+  }
+  const bool isSame = answer.fourcc == without.fourcc && answer.size == without.size &&
+                      answer.isOrientationKept == without.isOrientationKept;
+  return isSame ? "" : "its frames would be others beside a second image";
+}
+
+/// The memory of a request's images.
+struct Memories {
+  std::shared_ptr<const BufferMemory> frame, luma;  ///< luma: null where there is none
+  std::shared_ptr<const void> both;                 ///< for leases
+};
+
 class Session final : public CameraSession {
  public:
   Session(CameraIdentity camera, LibcameraOptions options, std::unique_ptr<Device> device,
@@ -51,12 +83,17 @@ class Session final : public CameraSession {
 
  private:
   Result<void> configure(const StreamRequest& request);
+  Result<void> configureLuma(StreamWish wish, int sidePx);
   bool requeue();
   NextFrame lost();
   NextFrame end(NextFrame answer);
   CapturedFrame frameOf(const Completed& completed);
   void stamp(const Completed& completed, CapturedFrame& frame);
   void lendPixels(const Completed& completed, CapturedFrame& frame);
+  void lend(std::uint32_t index, const std::array<PlaneView, 3>& planes, CapturedFrame& frame);
+  std::shared_ptr<Image> copied(const Completed& completed,
+                                const std::optional<std::array<PlaneView, 3>>& planes);
+  std::optional<ImageView> lumaOf(const Completed& completed, CapturedFrame& frame) const;
   void push(std::size_t index);
   Error named(Error error) const { return SessionCamera::named(std::move(error), camera_); }
 
@@ -67,6 +104,11 @@ class Session final : public CameraSession {
   const FrameLayout* layout_ = nullptr;
   FrameFormat format_;
   std::optional<FramePool> images_;  ///< for copies and converted frames
+  const FrameLayout* lumaLayout_ = nullptr;
+  std::optional<FrameFormat> lumaFormat_;  ///< of second images; unset: there are none
+  std::string lumaNote_;                   ///< why
+  std::optional<FramePool> lumaImages_;
+  std::vector<Memories> memories_;  ///< by request
   BufferLeases leases_;
   std::uint64_t pool_ = 0;
   bool wasStarving_ = false;
@@ -86,9 +128,12 @@ Result<void> Session::configure(const StreamRequest& request) {
   if (!wish) return tl::unexpected(wish.error());
   wish->buffers = options_.buffers;
   wish->orientation = options_.orientation;
-  const Result<StreamAnswer> answer = device_->configure(*wish);
+  Result<StreamAnswer> answer = device_->configure(*wish);
   if (!answer) return tl::unexpected(answer.error());
-  answer_ = *answer;
+  answer_ = *std::move(answer);
+  if (request.lumaSidePx && options_.makesLuma) {
+    if (auto done = configureLuma(*wish, *request.lumaSidePx); !done) return done;
+  }
   layout_ = findLayout(answer_.fourcc);
   if (layout_ == nullptr) {
     return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
@@ -108,6 +153,31 @@ Result<void> Session::configure(const StreamRequest& request) {
   return {};
 }
 
+/// Asks for second images, too. They must not change the frames.
+Result<void> Session::configureLuma(StreamWish wish, int sidePx) {
+  wish.fourcc = answer_.fourcc;
+  wish.size = answer_.size;
+  wish.luma = lumaSizeFor(answer_.size, sidePx);
+  if (!wish.luma) {
+    lumaNote_ = "its frames are no larger";
+    return {};
+  }
+  Result<StreamAnswer> answer = device_->configure(wish);
+  lumaNote_ = answer ? lumaProblem(*answer, answer_) : answer.error().message();
+  if (!lumaNote_.empty()) {
+    wish.luma.reset();
+    answer = device_->configure(wish);
+    if (!answer) return tl::unexpected(answer.error());
+    answer->luma.reset();
+  }
+  answer_ = *std::move(answer);
+  if (!answer_.luma) return {};
+  lumaLayout_ = findLayout(answer_.luma->fourcc);
+  lumaFormat_ = {.pixelFormat = PixelFormat::kGrey8, .size = answer_.luma->size};
+  lumaImages_.emplace(*lumaFormat_);
+  return {};
+}
+
 Result<StreamFormat> Session::begin(const StreamRequest& request) {
   if (const Result<void> done = configure(request); !done) return tl::unexpected(done.error());
   const Result<StartSettings> settings = settingsFor(*device_, request);
@@ -119,11 +189,20 @@ Result<StreamFormat> Session::begin(const StreamRequest& request) {
   if (!stream) return tl::unexpected(std::move(stream.error()));
   stream_ = *std::move(stream);
   pool_ = nextBufferPool();
+  for (std::size_t i = 0; i < stream_->bufferCount(); ++i) {
+    Memories memories{.frame = stream_->memory(i),
+                      .luma = lumaFormat_ ? stream_->lumaMemory(i) : nullptr};
+    memories.both = std::make_shared<const std::array<std::shared_ptr<const BufferMemory>, 2>>(
+        std::array{memories.frame, memories.luma});
+    memories_.push_back(std::move(memories));
+  }
   const bool isShared = layout_->swappedBytes == 0 && stream_->memory(0)->dmaBufs[0] >= 0;
   return StreamFormat{.frame = format_,
                       .framePeriod = settings->framePeriod,
                       .frameCount = {},
-                      .memory = isShared ? FrameMemory::kExported : FrameMemory::kProcessor};
+                      .memory = isShared ? FrameMemory::kExported : FrameMemory::kProcessor,
+                      .luma = lumaFormat_,
+                      .lumaNote = lumaNote_};
 }
 
 NextFrame Session::end(NextFrame answer) {
@@ -204,40 +283,74 @@ CapturedFrame Session::frameOf(const Completed& completed) {
   return frame;
 }
 
-void Session::lendPixels(const Completed& completed, CapturedFrame& frame) {
-  const std::shared_ptr<const BufferMemory> memory = stream_->memory(completed.index);
-  const auto planes = planesIn(*memory, *layout_, answer_.size, answer_.strideBytes);
-  if (planes && !isFilled(completed.usedBytes, *memory, *layout_, *planes)) {
-    frame.health = FrameHealth::kIncomplete;
-  }
-  const bool mustCopy = leases_.count() + 1 + kFewestFree > stream_->bufferCount();
-  if (planes && layout_->swappedBytes == 0 && !mustCopy) {
-    frame.image = FrameImage({.format = format_, .planes = *planes}, memory->access);
-    frame.dmaBufs = dmaBufsOf(*memory, *planes, planeCount(format_.pixelFormat));
-    if (frame.dmaBufs[0].fd >= 0) {
-      frame.buffer = {.pool = pool_, .index = static_cast<std::uint32_t>(completed.index)};
-    }
-    frame.lease = leases_.lend(static_cast<std::uint32_t>(completed.index), memory);
-    return;
-  }
-  const std::shared_ptr<Image> copy = images_->take();
+/// The second image of a frame, in its own memory. Where it is not as it should be, the frame is
+/// not either: trackers would lose what they follow.
+std::optional<ImageView> Session::lumaOf(const Completed& completed, CapturedFrame& frame) const {
+  const std::shared_ptr<const BufferMemory>& memory = memories_[completed.index].luma;
+  if (memory == nullptr) return std::nullopt;
+  const auto planes =
+      planesIn(*memory, *lumaLayout_, answer_.luma->size, answer_.luma->strideBytes);
   if (!planes) {
     frame.health = FrameHealth::kCorrupt;
-  } else if (layout_->swappedBytes > 0) {
-    const FrameMapping mapped({.format = format_, .planes = *planes}, memory->access);
+    return std::nullopt;
+  }
+  if (!isFilled(completed.lumaUsedBytes, *memory, *lumaLayout_, *planes)) {
+    frame.health = FrameHealth::kIncomplete;
+  }
+  return ImageView{.format = *lumaFormat_, .planes = {(*planes)[0]}};
+}
+
+void Session::lend(std::uint32_t index, const std::array<PlaneView, 3>& planes,
+                   CapturedFrame& frame) {
+  const BufferMemory& memory = *memories_[index].frame;
+  frame.image = FrameImage({.format = format_, .planes = planes}, memory.access);
+  frame.dmaBufs = dmaBufsOf(memory, planes, planeCount(format_.pixelFormat));
+  if (frame.dmaBufs[0].fd >= 0) frame.buffer = {.pool = pool_, .index = index};
+  frame.lease = leases_.lend(index, memories_[index].both);
+}
+
+/// The frame in memory of the program's own. Without planes its content is undefined.
+std::shared_ptr<Image> Session::copied(const Completed& completed,
+                                       const std::optional<std::array<PlaneView, 3>>& planes) {
+  std::shared_ptr<Image> copy = images_->take();
+  if (!planes) return copy;
+  const ReadAccess* const access = memories_[completed.index].frame->access;
+  const FrameMapping mapped({.format = format_, .planes = *planes}, access);
+  if (layout_->swappedBytes > 0) {
     swapToRgb(mapped.view().planes[0], layout_->swappedBytes, *copy);
   } else {
-    const FrameMapping mapped({.format = format_, .planes = *planes}, memory->access);
-    const ImageView& view = mapped.view();
-    for (int plane = 0; plane < planeCount(format_.pixelFormat); ++plane) {
-      for (int y = 0; y < planeRows(format_.pixelFormat, plane, format_.size.height); ++y) {
-        std::ranges::copy(view.row(plane, y), copy->row(plane, y).begin());
-      }
-    }
+    copyRows(mapped.view(), *copy);
   }
-  push(completed.index);
+  return copy;
+}
+
+void Session::lendPixels(const Completed& completed, CapturedFrame& frame) {
+  const auto index = static_cast<std::uint32_t>(completed.index);
+  const BufferMemory& memory = *memories_[index].frame;
+  const auto planes = planesIn(memory, *layout_, answer_.size, answer_.strideBytes);
+  const std::optional<ImageView> luma = lumaOf(completed, frame);
+  if (planes && !isFilled(completed.usedBytes, memory, *layout_, *planes)) {
+    frame.health = FrameHealth::kIncomplete;
+  }
+  if (!planes) frame.health = FrameHealth::kCorrupt;
+  const ReadAccess* const lumaAccess = luma ? memories_[index].luma->access : nullptr;
+  const bool mustCopy = leases_.count() + 1 + kFewestFree > stream_->bufferCount();
+  if (planes && layout_->swappedBytes == 0 && !mustCopy) {
+    lend(index, *planes, frame);
+    if (luma) frame.luma = FrameImage(*luma, lumaAccess);
+    return;
+  }
+  const std::shared_ptr<Image> copy = copied(completed, planes);
   frame.image = copy->view();
   frame.lease = copy;
+  if (luma) {
+    const std::shared_ptr<Image> small = lumaImages_->take();
+    copyRows(FrameMapping(*luma, lumaAccess).view(), *small);
+    frame.luma = small->view();
+    frame.lease =
+        std::make_shared<const std::array<std::shared_ptr<Image>, 2>>(std::array{copy, small});
+  }
+  push(completed.index);
 }
 
 }  // namespace

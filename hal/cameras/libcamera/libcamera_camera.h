@@ -12,6 +12,7 @@ namespace pleinair::hal::libcamera {
 struct LibcameraOptions {
   Orientation orientation = Orientation::kUpright;
   int buffers = 6;
+  bool makesLuma = true;  ///< StreamRequest::lumaSidePx is followed
 };
 
 /// A camera by way of libcamera (docs/cameras.md): sensors whose image processor libcamera drives.

@@ -17,6 +17,7 @@ namespace {
 struct LibcameraSettings {
   Orientation orientation = Orientation::kUpright;
   int buffers = 6;
+  bool secondStream = true;
 };
 
 const config::ParameterTable<LibcameraSettings>& libcameraTable() {
@@ -32,7 +33,10 @@ const config::ParameterTable<LibcameraSettings>& libcameraTable() {
                               "How the sensor turns the image, from the way it is mounted.",
                               kRestart),
       config::integerParameter("buffers", &S::buffers, {.min = 4, .max = 16},
-                               "Frames that memory is asked for.", kRestart)};
+                               "Frames that memory is asked for.", kRestart),
+      config::switchParameter("second_stream", &S::secondStream,
+                              "Whether a small image of each frame is asked for, for trackers.",
+                              kRestart)};
   return kTable;
 }
 
@@ -124,7 +128,9 @@ const CameraKind& cameraKind() {
                  const CameraBackendOptions&) -> std::unique_ptr<CameraBackend> {
         const LibcameraSettings settings = libcameraTable().typed(own);
         return std::make_unique<LibcameraBackend>(
-            LibcameraOptions{.orientation = settings.orientation, .buffers = settings.buffers},
+            LibcameraOptions{.orientation = settings.orientation,
+                             .buffers = settings.buffers,
+                             .makesLuma = settings.secondStream},
             hostedLibrary());
       }};
   return kKind;

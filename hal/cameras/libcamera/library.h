@@ -43,6 +43,15 @@ struct StreamWish {
   FrameSize size;
   int buffers = 6;
   Orientation orientation = Orientation::kUpright;
+  /// The size of a second image of each frame, whose first plane is luma; unset: none.
+  std::optional<FrameSize> luma;
+};
+
+/// An image that libcamera makes of each frame, as it lies in memory.
+struct StreamImage {
+  std::uint32_t fourcc = 0;
+  FrameSize size;
+  std::size_t strideBytes = 0;
 };
 
 /// What libcamera made of a wish; any of it may differ.
@@ -52,6 +61,7 @@ struct StreamAnswer {
   std::size_t strideBytes = 0;
   ColorEncoding encoding;
   bool isOrientationKept = true;
+  std::optional<StreamImage> luma;  ///< the second image; unset: there is none
 };
 
 /// Exposure in µs, gain as a factor, focus in dioptres, white balance in K.
@@ -77,6 +87,7 @@ struct Completed {
   Duration timestamp{0};               ///< on CLOCK_MONOTONIC; 0: unknown
   std::optional<Duration> sensorTime;  ///< when the first line was exposed, on CLOCK_BOOTTIME
   std::array<std::size_t, 3> usedBytes{};
+  std::array<std::size_t, 3> lumaUsedBytes{};  ///< of the second image
 };
 
 /// The memory of a buffer, mapped for the CPU; valid while it is held.
@@ -99,6 +110,8 @@ class Stream {
   virtual std::size_t bufferCount() const = 0;
   /// Lives on after the stream.
   virtual std::shared_ptr<const BufferMemory> memory(std::size_t index) const = 0;
+  /// The same of the request's second image; null where the stream has none.
+  virtual std::shared_ptr<const BufferMemory> lumaMemory(std::size_t index) const = 0;
   /// Takes a completed request; nothing if none comes in time. The CPU may read its memory from
   /// then on until push(), within the memory's access.
   virtual std::optional<Completed> pop(Duration timeout) = 0;
@@ -120,7 +133,8 @@ class Device {
 
   virtual std::string description() const = 0;
   virtual std::vector<OfferedFormat> formats() = 0;
-  /// Errors: kUnsupported, kIo.
+  /// Once or several times; the last counts. A second image that libcamera does not make is left
+  /// out. Errors: kUnsupported, kIo.
   virtual Result<StreamAnswer> configure(const StreamWish& wish) = 0;
   virtual std::optional<ControlRange> range(Control control) = 0;
   virtual bool hasAutomatic(Control control) = 0;

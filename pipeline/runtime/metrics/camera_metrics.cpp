@@ -32,6 +32,14 @@ StateReading frameMemory(hal::FrameMemory current) {
   return state;
 }
 
+/// Unset where none was asked for.
+Readings lumaText(const MetricMoment& moment) {
+  const std::optional<hal::StreamFormat>& format = moment.status.camera.format;
+  if (!format) return one({});
+  if (format->luma) return one(*format->luma);
+  return format->lumaNote.empty() ? one({}) : one(format->lumaNote);
+}
+
 using enum MetricScope;
 using enum MetricType;
 
@@ -94,6 +102,9 @@ std::vector<Metric> cameraMetrics() {
          const std::optional<hal::StreamFormat>& format = m.status.camera.format;
          return format && !format->memoryNote.empty() ? one(format->memoryNote) : one({});
        }},
+      {kCamera, "luma", "", kText, kNoUnit,
+       "Size of the second image that it makes of each frame for trackers, or why it makes none.",
+       [](Moment m) { return lumaText(m); }},
   };
 }
 

@@ -113,8 +113,11 @@ std::vector<Metric> paintingMetrics() {
        "Buffers of the camera that the GPU may still be reading.",
        [](Moment m) { return ofPath(m, [](const CameraPath& p) { return p.frames.heldLeases; }); }},
       {kPainting, "luma", "", kState, kNoUnit,
-       "Where trackers read the frame's brightness: nowhere, in the frame's memory, or in a copy.",
+       "Where trackers read the frame's brightness: nowhere, in the frame's memory, in a second "
+       "stream of the camera, in what the GPU read back, or in a copy.",
        [](Moment m) { return ofPath(m, lumaSource); }},
+      {kPainting, "luma_reason", "", kText, kNoUnit, "Why they read it there.",
+       [](Moment m) { return ofPath(m, [](const CameraPath& p) { return p.lumaReason; }); }},
       {kPainting, "stages", "stage", kSummary, kMs,
        "Time that each stage takes of a frame's latency.",
        [](Moment m) { return paintStages(m.status.painting); }, "stage_seconds"},

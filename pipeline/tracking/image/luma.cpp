@@ -82,17 +82,21 @@ void LumaFrame::takeCopy(const hal::ImageView& image) {
 void LumaFrame::take(const hal::ImageView& image) {
   image_ = image;
   size_ = image.format.size;
+  lumaSize_ = size_;
   luma_.reset();
   pyramid_.reset();
 }
 
-void LumaFrame::take(const hal::PlaneView& luma, hal::FrameSize size) {
+void LumaFrame::takeReduced(const hal::PlaneView& luma, hal::FrameSize lumaSize,
+                            hal::FrameSize frameSize) {
   luma_ = luma;
-  size_ = size;
+  size_ = frameSize;
+  lumaSize_ = lumaSize;
   pyramid_.reset();
 }
 
 const hal::PlaneView& LumaFrame::luma() {
+  assert(lumaSize_ == size_ && "the frame was taken reduced");
   if (!luma_) luma_ = converter_.convert(image_);
   return *luma_;
 }
@@ -106,7 +110,7 @@ std::shared_ptr<const LumaPyramid> LumaFrame::pyramid() {
       std::ranges::find_if(pyramids_, [](const auto& each) { return each.use_count() == 1; });
   const auto made =
       free != pyramids_.end() ? *free : pyramids_.emplace_back(std::make_shared<LumaPyramid>());
-  made->load(luma(), size_, kLongSidePx);
+  made->load(luma_ ? *luma_ : luma(), lumaSize_, size_, kLongSidePx);
   pyramid_ = made;
   return pyramid_;
 }

@@ -37,10 +37,14 @@ class LumaFrame {
   /// reading them is slow. Precondition: image.isComplete().
   void takeCopy(const hal::ImageView& image);
   /// Takes a frame that is luma already; its pixels must stay valid in the same way.
-  void take(const hal::PlaneView& luma, hal::FrameSize size);
+  void take(const hal::PlaneView& luma, hal::FrameSize size) { takeReduced(luma, size, size); }
+  /// Takes a smaller image of a frame of `frameSize`, from which the pyramid is made: luma() is not
+  /// there. Its pixels must stay valid until pyramid() was called, which reads them once.
+  void takeReduced(const hal::PlaneView& luma, hal::FrameSize lumaSize, hal::FrameSize frameSize);
 
   // Precondition of all functions below: a frame was taken.
   hal::FrameSize size() const { return size_; }
+  /// Precondition: the frame was not taken reduced.
   const hal::PlaneView& luma();
   /// A pyramid whose longer side is at most kLongSidePx. It is not changed while it is shared; key
   /// frames keep it.
@@ -50,6 +54,7 @@ class LumaFrame {
  private:
   LumaConverter converter_;
   hal::FrameSize size_;
+  hal::FrameSize lumaSize_;
   hal::ImageView image_;
   std::optional<hal::PlaneView> luma_;
   std::shared_ptr<const LumaPyramid> pyramid_;

@@ -8,22 +8,22 @@
 
 namespace pleinair::tracking {
 
-void LumaPyramid::load(const hal::PlaneView& luma, hal::FrameSize frameSize, int longSidePx) {
+void LumaPyramid::load(const hal::PlaneView& luma, hal::FrameSize lumaSize,
+                       hal::FrameSize frameSize, int longSidePx) {
   auto* const bytes = const_cast<std::uint8_t*>(luma.bytes.data());  // OpenCV only reads them
-  const cv::Mat full(frameSize.height, frameSize.width, CV_8UC1, bytes, luma.strideBytes);
-  const double scale = static_cast<double>(std::max(frameSize.width, frameSize.height)) /
+  const cv::Mat full(lumaSize.height, lumaSize.width, CV_8UC1, bytes, luma.strideBytes);
+  const double scale = static_cast<double>(std::max(lumaSize.width, lumaSize.height)) /
                        static_cast<double>(longSidePx);
   frameSize_ = frameSize;
   if (scale > 1.0) {
-    const cv::Size small(std::max(1, static_cast<int>(std::lround(frameSize.width / scale))),
-                         std::max(1, static_cast<int>(std::lround(frameSize.height / scale))));
+    const cv::Size small(std::max(1, static_cast<int>(std::lround(lumaSize.width / scale))),
+                         std::max(1, static_cast<int>(std::lround(lumaSize.height / scale))));
     cv::resize(full, reduced_, small, 0.0, 0.0, cv::INTER_AREA);
-    reduction_ = {static_cast<double>(frameSize.width) / small.width,
-                  static_cast<double>(frameSize.height) / small.height};
   } else {
     reduced_ = full;
-    reduction_ = glm::dvec2(1.0);
   }
+  reduction_ = {static_cast<double>(frameSize.width) / reduced_.cols,
+                static_cast<double>(frameSize.height) / reduced_.rows};
   cv::buildOpticalFlowPyramid(reduced_, levels_, {kWindowPx, kWindowPx}, kLevels, true,
                               cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
   if (scale <= 1.0) reduced_.release();  // reduced_ would refer to the caller's pixels

@@ -17,7 +17,12 @@ namespace pleinair::tracking {
 class LumaPyramid {
  public:
   /// Copies a frame's luma, reduced so that the longer side is at most `longSidePx`.
-  void load(const hal::PlaneView& luma, hal::FrameSize frameSize, int longSidePx);
+  void load(const hal::PlaneView& luma, hal::FrameSize frameSize, int longSidePx) {
+    load(luma, frameSize, frameSize, longSidePx);
+  }
+  /// The same of luma that was reduced before, and shows what the frame shows.
+  void load(const hal::PlaneView& luma, hal::FrameSize lumaSize, hal::FrameSize frameSize,
+            int longSidePx);
 
   hal::FrameSize frameSize() const { return frameSize_; }
   /// The reduced image, without the border that filters need.

@@ -38,6 +38,12 @@ support::FakeSensor separate(support::FakeSensor sensor) {
   return sensor;
 }
 
+/// An image processor that makes two images of a frame.
+support::FakeSensor withLuma(support::FakeSensor sensor, std::uint32_t fourcc) {
+  sensor.luma = fourcc;
+  return sensor;
+}
+
 /// vimc gives another size than it is asked for, and odd strides.
 support::FakeSensor vimc() {
   support::FakeSensor sensor = withFormat("RG24");
@@ -45,17 +51,19 @@ support::FakeSensor vimc() {
   return sensor;
 }
 
-INSTANTIATE_TEST_SUITE_P(Libcamera, CameraConformance,
-                         testing::Values(libcameraCase("Nv12", withFormat("NV12")),
-                                         libcameraCase("Nv12Padded", withFormat("NV12", 32)),
-                                         libcameraCase("Nv12Separate",
-                                                       separate(withFormat("NV12", 32))),
-                                         libcameraCase("I420Padded", withFormat("YU12", 32)),
-                                         libcameraCase("Yuyv", withFormat("YUYV")),
-                                         libcameraCase("Rgb", withFormat("BG24", 4)),
-                                         libcameraCase("BgrxPadded", withFormat("XR24", 8)),
-                                         libcameraCase("Vimc", vimc())),
-                         cameraCaseName);
+INSTANTIATE_TEST_SUITE_P(
+    Libcamera, CameraConformance,
+    testing::Values(libcameraCase("Nv12", withFormat("NV12")),
+                    libcameraCase("Nv12Padded", withFormat("NV12", 32)),
+                    libcameraCase("Nv12Separate", separate(withFormat("NV12", 32))),
+                    libcameraCase("I420Padded", withFormat("YU12", 32)),
+                    libcameraCase("Yuyv", withFormat("YUYV")),
+                    libcameraCase("Rgb", withFormat("BG24", 4)),
+                    libcameraCase("BgrxPadded", withFormat("XR24", 8)),
+                    libcameraCase("Nv12Luma", withLuma(withFormat("NV12"), 0x3231564E)),
+                    libcameraCase("BgrxLuma", withLuma(withFormat("XR24", 8), 0x20203852)),
+                    libcameraCase("Vimc", vimc())),
+    cameraCaseName);
 
 }  // namespace
 }  // namespace pleinair::hal::conformance

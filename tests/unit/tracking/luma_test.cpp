@@ -5,9 +5,12 @@
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
+#include "pipeline/tracking/image/luma_pyramid.h"
 #include "pipeline/tracking/pose/tag_detector.h"
 #include "tests/support/tag_scene.h"
+#include "tests/support/textured_plane.h"
 
 namespace pleinair::tracking {
 namespace {
@@ -98,6 +101,41 @@ TEST(LumaConverter, ShiftsNoTag) {
     for (std::size_t i = 0; i < 4; ++i) shift += (found[0].corners[i] - truth[i]) / 4.0;
     EXPECT_LT(glm::length(shift), 0.1) << hal::toString(format);
   }
+}
+
+/// What a camera has reduced in the way of the pyramid is followed as the whole frame is.
+TEST(LumaFrame, OfASecondImageMeasuresInPxOfTheFrame) {
+  constexpr hal::FrameSize kWhole{1280, 960};
+  constexpr hal::FrameSize kSmall{640, 480};
+  const hal::Image whole = support::renderWall({.size = kWhole, .noiseSigma = 2.0});
+  hal::Image small({.pixelFormat = PixelFormat::kGrey8, .size = kSmall});
+  const hal::PlaneView plane = whole.view().planes[0];
+  auto* const bytes = const_cast<std::uint8_t*>(plane.bytes.data());
+  const cv::Mat from(kWhole.height, kWhole.width, CV_8UC1, bytes, plane.strideBytes);
+  cv::Mat to(kSmall.height, kSmall.width, CV_8UC1, small.plane(0).data());
+  cv::resize(from, to, to.size(), 0.0, 0.0, cv::INTER_AREA);
+  LumaFrame ofWhole, ofSmall;
+  ofWhole.take(whole.view());
+  ofSmall.takeReduced(small.view().planes[0], kSmall, kWhole);
+  EXPECT_EQ(ofSmall.size(), kWhole);
+  const auto a = ofWhole.pyramid();
+  const auto b = ofSmall.pyramid();
+  EXPECT_EQ(b->frameSize(), kWhole);
+  EXPECT_EQ(b->reduction(), a->reduction());
+  EXPECT_EQ(b->reduction(), glm::dvec2(2.0));
+  ASSERT_EQ(b->picture().size(), a->picture().size());
+  EXPECT_EQ(cv::norm(a->picture(), b->picture(), cv::NORM_INF), 0.0);
+}
+
+TEST(LumaFrame, OfASecondImageThatIsLargerThanThePyramidIsReduced) {
+  constexpr hal::FrameSize kWhole{1920, 1080};
+  constexpr hal::FrameSize kSmall{960, 540};
+  const hal::Image small = support::renderWall({.size = kSmall});
+  LumaFrame frame;
+  frame.takeReduced(small.view().planes[0], kSmall, kWhole);
+  const auto pyramid = frame.pyramid();
+  EXPECT_EQ(pyramid->picture().cols, LumaFrame::kLongSidePx);
+  EXPECT_EQ(pyramid->reduction(), glm::dvec2(3.0));
 }
 
 }  // namespace

@@ -46,6 +46,9 @@ class BadStream final : public Stream {
   std::shared_ptr<const BufferMemory> memory(std::size_t index) const override {
     return stream_->memory(index);
   }
+  std::shared_ptr<const BufferMemory> lumaMemory(std::size_t index) const override {
+    return stream_->lumaMemory(index);
+  }
   std::optional<Completed> pop(Duration timeout) override {
     if (misdeeds_.abortsAfter == frames_) std::abort();
     auto completed = stream_->pop(timeout);
@@ -234,6 +237,22 @@ TEST_F(HostedLibraryTest, FramesAreInMemoryOfBoth) {
       EXPECT_GT(taken.captureTime, *last);
     }
     last = taken.captureTime;
+  }
+}
+
+TEST_F(HostedLibraryTest, SecondImagesAreInMemoryOfBoth) {
+  sensor.luma = 0x3231564E;  // NV12
+  sensor.formats[0].sizes = {{128, 96}};
+  const auto format = start({.size = FrameSize{128, 96}, .lumaSidePx = 32});
+  ASSERT_TRUE(format) << format.error().message();
+  ASSERT_TRUE(format->luma) << format->lumaNote;
+  EXPECT_EQ(format->luma->size, (FrameSize{32, 24}));
+  for (int i = 0; i < 20; ++i) {
+    const CapturedFrame taken = frame();
+    EXPECT_EQ(taken.health, FrameHealth::kValid);
+    ASSERT_TRUE(taken.luma && taken.luma->isComplete());
+    EXPECT_EQ(taken.luma->map().view().row(0, 1)[0],
+              static_cast<std::uint8_t>(128 + 32 + taken.sequence));
   }
 }
 
