@@ -104,10 +104,10 @@ TEST_F(PacketFilterTest, DropsOtherFormatsAndPartsOfFrames) {
   EXPECT_FALSE(passes(packet(kLong | kAllIn, 1)));
   EXPECT_FALSE(passes(packet(kLeader, 0, 10)));  // several parts
   EXPECT_FALSE(passes(packet(kLong | kLeader, 0, 10)));
-  for (std::size_t length = 0; length < 8; ++length) {
+  for (std::size_t length = 1; length < 8; ++length) {
     std::vector<std::uint8_t> cut = packet(kPart, 1);
     cut.resize(length);
-    if (length > 0) EXPECT_FALSE(passes(cut)) << length;
+    EXPECT_FALSE(passes(cut)) << length;
   }
   std::vector<std::uint8_t> cut = packet(kLong | kPart, 1);
   cut.resize(19);
