@@ -199,10 +199,10 @@ Result<void> setFormat(Device& device, const AravisOptions& options, const Strea
   if (!region) return tl::unexpected(region.error());
   // Pairs would go on across the ends of rows.
   if ((*layout)->pixelFormat == PixelFormat::kYuyv && region->size().width % 2 != 0) {
-    return tl::unexpected(unsupported(
-        fmt::format("gives rows of {} px in {}, whose pixels are paired", region->size().width,
-                    (*layout)->name),
-        "set camera.aravis.pixel_format to another of its formats"));
+    return tl::unexpected(
+        unsupported(fmt::format("gives rows of {} px in {}, whose pixels are paired",
+                                region->size().width, (*layout)->name),
+                    "set camera.aravis.pixel_format to another of its formats"));
   }
   negotiated.region = *region;
   return {};
