@@ -2,6 +2,7 @@
 """Which slot starts, over the life of a machine: GRUB's side (slots.cfg, run by GRUB's own interpreter) and the system's
 (`slots`), which share a block of variables. RAUC's part is what its GRUB backend writes."""
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -215,6 +216,26 @@ class Block(unittest.TestCase):
         with self.assertRaises(subprocess.CalledProcessError):
             subprocess.run([grub.EDIT, self.file, "set", "long=" + "x" * 1024], check=True, stderr=subprocess.DEVNULL)
         self.assertEqual(grub.read_block(self.file), {"ORDER": "a b"})
+
+
+KERNEL = "/usr/lib/grub/x86_64-efi/kernel.img"
+
+
+@unittest.skipUnless(os.path.exists(KERNEL), "grub-efi-amd64-bin is not installed")
+class Greeting(unittest.TestCase):
+    def test_is_taken_out_of_grub_and_missed_where_it_is_not(self):
+        with tempfile.TemporaryDirectory() as folder:
+            image = os.path.join(folder, "kernel.img")
+            shutil.copy(KERNEL, image)
+            silence = [os.path.join(grub.IMAGE, "silence-grub"), image]
+            before = os.path.getsize(image)
+            subprocess.run(silence, check=True)
+            with open(image, "rb") as file:
+                self.assertNotIn(b"Welcome to GRUB", file.read())
+            self.assertEqual(os.path.getsize(image), before)
+            again = subprocess.run(silence, capture_output=True, text=True)
+            self.assertEqual(again.returncode, 1)
+            self.assertIn("found 0 times", again.stderr)
 
 
 if __name__ == "__main__":
