@@ -36,7 +36,7 @@ const float kCertainThresholds = 2.4;  // at so many thresholds, other content i
 const float kTrustedFrames = 4.0;  // of background, after which its colours count more than flow
 const float kReach = 2.5;  // px
 const float kMovedPx = 0.6;  // less may be an error of the flow, at any rate of frames
-const float kLeastUnlike = 0.02;  // of colour
+const float kLeastUnlike = 0.008;  // of colour
 const float kSeenOther = 0.6;
 // s, at most, of parts of a mover that moves: less than what makes any join the background.
 const float kCarriedRest = 0.3;
@@ -58,10 +58,10 @@ vec4 labelBefore(vec2 px) {
 
 // Whether a colour is rather that of the mover that was there in the previous frame.
 bool isLikeMover(vec3 now, vec2 back, float unlikeBackground) {
-  if (!isInPicture(back)) return false;
+  if (unlikeBackground <= kLeastUnlike + kNoiseDeviations * noise) return false;
+  if (!isInPicture(back)) return true;
   vec3 there = textureLod(lastPicture, inLayers(lastPicture, back), 0.0).rgb;
-  return unlikeBackground > kLeastUnlike + kNoiseDeviations * noise &&
-         apart(now, there) < kLikeMover * unlikeBackground;
+  return apart(now, there) < kLikeMover * unlikeBackground;
 }
 
 // A number for the real thing of an object, 0 for none. Few share one.
@@ -117,18 +117,17 @@ void main() {
   if (!isMoving && changed > 0.5) label.a = 0.0;  // something else is seen there
   // A mover has uncovered the place: the motion beside it is that mover's.
   bool hasLeft = label.a < 0.0 && changed <= 0.5;
-  vec2 own;
-  bool mayBeMover = !isMoving && !hasLeft && max(label.r, other) > 0.5;
-  if (mayBeMover && findMoverMotion(px, own) && length(own) > kMovedPx) {
-    // A plain part of a mover goes with its other parts.
-    own *= motionScale;
-    vec2 back = from - own;
+  vec2 own = vec2(0.0);
+  bool mayBeMover = !isMoving && !hasLeft &&
+                    (max(label.r, other) > 0.5 || unlike > kLeastUnlike + kNoiseDeviations * noise);
+  if (mayBeMover) {
+    // A plain part of a mover goes with its other parts, or rests where it was.
+    bool goes = findMoverMotion(px, own) && length(own) > kMovedPx;
+    vec2 back = goes ? from - motionScale * own : from;
     vec4 carried = labelBefore(back);
-    isCarried = carried.r > 0.5;
-    if (isCarried) {
-      label = vec4(1.0, label.g, min(label.b, kCarriedRest), max(label.a, carried.a));
-      if (isLikeMover(now, back, unlike)) other = max(other, kSeenOther);
-    }
+    isCarried = goes && carried.r > 0.5;
+    if (isCarried) label = vec4(1.0, label.g, min(label.b, kCarriedRest), max(label.a, carried.a));
+    if (carried.r > 0.5 && isLikeMover(now, back, unlike)) other = max(other, kSeenOther);
   }
   if (isMoving) {
     vec2 back = px - moved.xy;

@@ -49,10 +49,17 @@ const float kLikelier = 0.06;  // of colour: uncovered rather than covered
 const float kAlike = 0.6;      // share of the memory's difference that is left
 const float kSwitched = 0.04;  // of all blocks: a light has been switched
 const float kLeastKept = 0.5;   // of those with edges that have changed
-const int kHoleReach = 8;  // cells
+const int kHoleReach = 14;  // cells
 const int kOutlineReach = 4;  // cells: a mover that has left is taken back from its outline inwards
 const float kHoleUnlike = 0.012;  // of colour: a hole in a mover that shows no background
 const float kHoleDeviations = 1.5;  // of the noise, in a mean of nine
+
+// Nine cells around, in rows and columns of both parities: cells that are two apart would decide
+// without those between them.
+ivec2 tap(ivec2 cell, int x, int y, ivec2 size) {
+  int away = x * y == 0 ? 1 : 2;
+  return clamp(cell + away * ivec2(x, y), ivec2(0), size - 1);
+}
 
 // The colour of the background around, in a window that grows until it has seen enough, and how
 // many blocks of it were seen.
@@ -81,7 +88,7 @@ float maturityAround(ivec2 cell, ivec2 size, vec3 now, vec3 known) {
   int same = 0;
   for (int y = -reach; y <= reach; ++y) {
     for (int x = -1; x <= 1; ++x) {
-      ivec2 at = clamp(cell + 2 * ivec2(x, y), ivec2(0), size - 1);
+      ivec2 at = tap(cell, x, y, size);
       float there = texelFetch(evidence, at, 0).b;
       if (there <= kMatureSeconds) continue;
       if (apart(texelFetch(picture, at, 0).rgb, now) > kLikeMover * unlike) continue;
@@ -103,7 +110,7 @@ bool isUncovered(ivec2 cell, ivec2 size) {
   float weights = 1e-3;
   for (int y = -reach; y <= reach; ++y) {
     for (int x = -1; x <= 1; ++x) {
-      ivec2 at = clamp(cell + 2 * ivec2(x, y), ivec2(0), size - 1);
+      ivec2 at = tap(cell, x, y, size);
       float weight = texelFetch(candidates, at, 0).r;
       vec2 px = (vec2(at) + 0.5) * kLayerCellPixels;
       vec3 known = textureLod(background, inLayers(background, px - backgroundShift(px)), 0.0).rgb;
@@ -155,14 +162,15 @@ bool continuesBackground(ivec2 cell, ivec2 size) {
 }
 
 // How long the movers on all sides of a cell have been seen to move; -1 if there is a side without
-// any within `farthest` cells, but for those beyond the image's border.
+// any within `farthest` cells, but for those beyond the image's border. Steps of one parity would find
+// no side of a hole in every second row.
 float maturityOfEnclosing(ivec2 cell, ivec2 size, int farthest) {
   float most = 0.0;
   for (int y = -reach; y <= reach; ++y) {
     for (int x = -reach; x <= reach; ++x) {
       if (x == 0 && y == 0) continue;
       bool isMet = false;
-      for (int away = 2; away <= farthest && !isMet; away += 2) {
+      for (int away = 1; away <= farthest && !isMet; away += 1 + away / 2) {
         ivec2 at = cell + away * ivec2(x, y);
         bool isOutside = any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size));
         vec2 there = isOutside ? vec2(1.0) : texelFetch(candidates, at, 0).rg;
@@ -219,7 +227,7 @@ void main() {
   Structure structure = noStructure();
   for (int y = -reach; y <= reach; ++y) {
     for (int x = -1; x <= 1; ++x) {
-      ivec2 at = clamp(cell + 2 * ivec2(x, y), ivec2(0), size - 1);
+      ivec2 at = tap(cell, x, y, size);
       vec4 there = texelFetch(candidates, at, 0);
       others += there.r / 9.0;
       carried = max(carried, there.g);

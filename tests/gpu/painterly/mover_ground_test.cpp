@@ -1,5 +1,5 @@
 // The ground under a mover: washed with the mover's colour more than once, and without the paper's
-// grain, until it rests.
+// grain, until it rests; and the light on its paint.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -17,8 +17,8 @@ constexpr double kRadius = 30.0;
 constexpr std::uint8_t kDark = 51;
 constexpr std::uint8_t kLight = 153;
 
-/// A dark disc that moves before a lighter wall, painted with strokes that are not seen on white
-/// paper.
+/// A dark disc that moves before a lighter wall, painted on white paper, with strokes that are not
+/// seen unless a test says so.
 class MoverGround : public PainterlyTest {
  protected:
   /// Means, in levels: on the disc, within its border, and around it.
@@ -28,15 +28,16 @@ class MoverGround : public PainterlyTest {
     int largestStep = 0;  ///< of a pixel on the disc, since the frame before
   };
 
-  void begin(Painterly& style, const char* movers) {
+  void begin(Painterly& style, const char* movers, const char* relief = "0",
+             const char* opacity = "0") {
     style.setParameters(style.parameters()
                             .with("movers", movers)
                             .with("layers", "1")
-                            .with("opacity", "0")
+                            .with("opacity", opacity)
                             .with("wash", "0.4")
                             .with("tooth", "0.8")
                             .with("support", "paper")
-                            .with("relief", "0")
+                            .with("relief", relief)
                             .with("gloss", "0")
                             .with("canvas", "0")
                             .with("saturation", "1")
@@ -90,6 +91,30 @@ class MoverGround : public PainterlyTest {
     return last;
   }
 
+  /// Mean difference of two paintings of the disc at its place, in levels.
+  struct Difference {
+    double on = 0.0;
+    double around = 0.0;
+  };
+  Difference differenceOf(const std::vector<std::uint8_t>& a,
+                          const std::vector<std::uint8_t>& b) const {
+    Difference sum;
+    double on = 0.0;
+    double around = 0.0;
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) {
+        const auto at = static_cast<std::size_t>(y * kSize.width + x) * 4;
+        const double apart = std::abs(int{a[at]} - int{b[at]});
+        const bool isOn = awayOf(x, y) < -8.0;
+        if (!isOn && awayOf(x, y) < 24.0) continue;
+        (isOn ? sum.on : sum.around) += apart;
+        (isOn ? on : around) += 1.0;
+      }
+    }
+    return {.on = sum.on / on, .around = sum.around / around};
+  }
+  const std::vector<std::uint8_t>& painting() const { return painting_; }
+
  private:
   double awayOf(int x, int y) const {
     return glm::distance(glm::dvec2(x, y), glm::dvec2(x_, 72.0)) - kRadius;
@@ -128,6 +153,23 @@ TEST_F(MoverGround, BecomesTheBackgroundsWhileItRests) {
   EXPECT_NEAR(last.on, see(untold).on, 1.0);
   EXPECT_GT(last.on, moving + 60.0);
   EXPECT_LT(largest, 45) << "at once";
+}
+
+TEST_F(MoverGround, ThickPaintOnItIsLitLikeThinPaint) {
+  std::vector<std::vector<std::uint8_t>> paintings;
+  for (const char* relief : {"1.4", "2.6"}) {
+    Painterly style(library_);
+    begin(style, "true", relief, "1");
+    seeItMove(style);
+    paintings.push_back(painting());
+  }
+  const Difference thick = differenceOf(paintings[0], paintings[1]);
+  EXPECT_LT(thick.on, 0.1);
+  EXPECT_GT(thick.around, 1.0) << "the control: the wall's paint is lit as it is thick";
+  Painterly flat(library_);
+  begin(flat, "true", "0", "1");
+  seeItMove(flat);
+  EXPECT_GT(differenceOf(paintings[0], painting()).on, 0.3) << "nor is it flat";
 }
 
 }  // namespace

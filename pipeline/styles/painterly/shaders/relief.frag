@@ -30,8 +30,10 @@ uniform float saturation;
 uniform float warmth;
 layout(location = 0) out vec4 picture;
 
-// Strokes that go with a model or a mover change the relief of each pixel, which glitters.
+// Strokes that go with a model or a mover change the relief of each pixel, which glitters. On a
+// mover, thick paint is lit like that of no more than this relief.
 const float kCarriedRelief = 0.75;
+const float kMoverRelief = 0.45;
 
 // Dry paint stays on the substrate's heights; more paint reaches deeper.
 float caught(float height, float amount) {
@@ -53,7 +55,8 @@ void main() {
   vec2 slope = 0.5 * vec2(ne + se - nw - sw, sw + se - nw - ne) * relief;
   float moving = movingAt(gl_FragCoord.xy / pixelsOfFull);
   bool isModel = hasObjects && isVirtual(objectOf(texelFetch(ids, p, 0).r));
-  slope *= mix(1.0, kCarriedRelief, isModel ? 1.0 : moving);
+  float onMover = min(kCarriedRelief, kMoverRelief / max(relief, 1e-3));
+  slope *= isModel ? kCarriedRelief : mix(1.0, onMover, moving);
   vec3 normal = normalize(vec3(-slope, 1.0));
   float lit = litBy(normal);
   vec4 substrate = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
