@@ -49,17 +49,10 @@ const float kLikelier = 0.06;  // of colour: uncovered rather than covered
 const float kAlike = 0.6;      // share of the memory's difference that is left
 const float kSwitched = 0.04;  // of all blocks: a light has been switched
 const float kLeastKept = 0.5;   // of those with edges that have changed
-const int kHoleReach = 14;  // cells
+const int kHoleReach = 8;  // cells
 const int kOutlineReach = 4;  // cells: a mover that has left is taken back from its outline inwards
 const float kHoleUnlike = 0.012;  // of colour: a hole in a mover that shows no background
 const float kHoleDeviations = 1.5;  // of the noise, in a mean of nine
-
-// Nine cells around, in rows and columns of both parities: cells that are two apart would decide
-// without those between them.
-ivec2 tap(ivec2 cell, int x, int y, ivec2 size) {
-  int away = x * y == 0 ? 1 : 2;
-  return clamp(cell + away * ivec2(x, y), ivec2(0), size - 1);
-}
 
 // The colour of the background around, in a window that grows until it has seen enough, and how
 // many blocks of it were seen.
@@ -88,7 +81,7 @@ float maturityAround(ivec2 cell, ivec2 size, vec3 now, vec3 known) {
   int same = 0;
   for (int y = -reach; y <= reach; ++y) {
     for (int x = -1; x <= 1; ++x) {
-      ivec2 at = tap(cell, x, y, size);
+      ivec2 at = clamp(cell + 2 * ivec2(x, y), ivec2(0), size - 1);
       float there = texelFetch(evidence, at, 0).b;
       if (there <= kMatureSeconds) continue;
       if (apart(texelFetch(picture, at, 0).rgb, now) > kLikeMover * unlike) continue;
@@ -110,7 +103,7 @@ bool isUncovered(ivec2 cell, ivec2 size) {
   float weights = 1e-3;
   for (int y = -reach; y <= reach; ++y) {
     for (int x = -1; x <= 1; ++x) {
-      ivec2 at = tap(cell, x, y, size);
+      ivec2 at = clamp(cell + 2 * ivec2(x, y), ivec2(0), size - 1);
       float weight = texelFetch(candidates, at, 0).r;
       vec2 px = (vec2(at) + 0.5) * kLayerCellPixels;
       vec3 known = textureLod(background, inLayers(background, px - backgroundShift(px)), 0.0).rgb;
@@ -227,7 +220,7 @@ void main() {
   Structure structure = noStructure();
   for (int y = -reach; y <= reach; ++y) {
     for (int x = -1; x <= 1; ++x) {
-      ivec2 at = tap(cell, x, y, size);
+      ivec2 at = clamp(cell + 2 * ivec2(x, y), ivec2(0), size - 1);
       vec4 there = texelFetch(candidates, at, 0);
       others += there.r / 9.0;
       carried = max(carried, there.g);

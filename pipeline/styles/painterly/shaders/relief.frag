@@ -33,7 +33,7 @@ layout(location = 0) out vec4 picture;
 // Strokes that go with a model or a mover change the relief of each pixel, which glitters. On a
 // mover, thick paint is lit like that of no more than this relief.
 const float kCarriedRelief = 0.75;
-const float kMoverRelief = 0.45;
+const float kMoverRelief = 0.4;
 
 // Dry paint stays on the substrate's heights; more paint reaches deeper.
 float caught(float height, float amount) {
