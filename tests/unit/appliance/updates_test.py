@@ -312,6 +312,11 @@ class Updates(unittest.TestCase):
         self.write("run/notice", "Version 2.0 did not paint here and was taken back.\n")
         self.assertNotEqual(self.install("--gone", self.stick)[1], "", "no stick has said that")
 
+    def test_a_stick_that_is_pulled_while_it_is_judged_leaves_nothing_behind(self):
+        self.put(self.bundle("old", "1.4"))
+        self.write("bin/rauc", f"#!/bin/sh\nrm -r {self.stick}\nexit 1\n")
+        self.assertEqual(self.install(), (3, ""))
+
     def test_a_stick_without_bundles_takes_away_what_another_had_shown(self):
         self.put(self.bundle("old", "1.4"))
         self.refused()
