@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 sys.dont_write_bytecode = True
@@ -348,6 +349,24 @@ class Block(unittest.TestCase):
             self.assertIsNone(other.poll())
         self.assertEqual(other.wait(30), 0)
         self.assertEqual(grub.read_block(self.file), {"own": "1", "other": "1"})
+
+    def test_a_slot_is_judged_by_what_no_other_writer_is_about_to_change(self):
+        grub.write_block(self.file, ORDER="a b", a_OK=1, a_TRY=1, b_OK=0, b_TRY=0)
+        folder = os.path.dirname(self.file)
+        with open(os.path.join(folder, "cmdline"), "w") as file:
+            file.write("pleinair.slot=a\n")
+        environment = {**os.environ, "PATH": os.path.join(grub.TOOLS, "bin") + ":" + os.environ["PATH"],
+                       "PLEINAIR_GRUBENV": self.file, "PLEINAIR_MACHINE": folder, "PLEINAIR_SETTLED": "true",
+                       "PLEINAIR_CMDLINE": os.path.join(folder, "cmdline"), "PLEINAIR_GRUBENV_LOCKED": "1"}
+        with open(self.file) as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            confirming = subprocess.Popen([SLOTS, "confirm"], env=environment, stdout=subprocess.DEVNULL)
+            time.sleep(1)
+            self.assertNotIn("CONFIRMED", grub.read_block(self.file))
+            subprocess.run([grub.EDIT, self.file, "set", "ORDER=b a", "b_OK=1", "TRIAL=2.0"], check=True, env=environment)
+        self.assertEqual(confirming.wait(30), 0)
+        values = grub.read_block(self.file)
+        self.assertEqual((values["ORDER"], values["TRIAL"], values["CONFIRMED"]), ("b a", "2.0", "a"))
 
     def test_what_does_not_fit_is_refused_and_changes_nothing(self):
         grub.write_block(self.file, ORDER="a b")

@@ -5,6 +5,7 @@ import fcntl
 import os
 import random
 import shutil
+import stat
 import subprocess
 import sys
 import tempfile
@@ -311,6 +312,40 @@ class Updates(unittest.TestCase):
         self.assertEqual(self.install("--gone", self.stick)[1], "")
         self.write("run/notice", "Version 2.0 did not paint here and was taken back.\n")
         self.assertNotEqual(self.install("--gone", self.stick)[1], "", "no stick has said that")
+
+    def program(self, name, text):
+        self.write("bin/" + name, "#!/bin/sh\n" + text)
+        os.chmod(os.path.join(self.folder, "bin", name), 0o755)
+
+    def device(self):
+        """A block device whose content is that of the stick's folder, as far as `mount` is asked."""
+        device = os.path.join(self.folder, "sdz1")
+        try:
+            os.mknod(device, 0o600 | stat.S_IFBLK, os.makedev(7, 99))
+        except PermissionError:
+            self.skipTest("only root makes devices")
+        self.program("mount", f'echo "$@" >{self.folder}/mounted; for place; do :; done; cp {self.stick}/* "$place"/\n')
+        self.program("umount", f'rm "$1"/*; echo "$@" >{self.folder}/unmounted\n')
+        return device
+
+    def test_a_device_is_mounted_read_only_and_let_go_whatever_happens(self):
+        device, place = self.device(), os.path.join(self.folder, "run", "stick")
+        self.put(self.bundle("old", "1.4"))
+        for bundle, status in ((None, 3), (self.good, 0)):
+            if bundle:
+                self.put(bundle)
+            self.assertEqual(self.install(device)[0], status)
+            with open(os.path.join(self.folder, "mounted")) as file:
+                self.assertEqual(file.read(), f"-o ro,nosuid,nodev,noexec {device} {place}\n")
+            with open(os.path.join(self.folder, "unmounted")) as file:
+                self.assertEqual(file.read(), place + "\n")
+            os.remove(os.path.join(self.folder, "unmounted"))
+
+    def test_what_a_device_has_shown_goes_with_it(self):
+        device = self.device()
+        self.put(self.bundle("old", "1.4"))
+        self.assertIn("is older", self.install(device)[1])
+        self.assertEqual(self.install("--gone", device)[1], "")
 
     def test_a_stick_that_is_pulled_while_it_is_judged_leaves_nothing_behind(self):
         self.put(self.bundle("old", "1.4"))
