@@ -15,8 +15,8 @@ namespace pleinair::app {
 /// exist.
 std::filesystem::path stateFolder();
 
-/// The folder that a service manager has made for this run: the first of $RUNTIME_DIRECTORY, which may
-/// hold several, separated by colons; empty: there is none.
+/// The folder that a service manager has made for this run: the first of $RUNTIME_DIRECTORY, which
+/// may hold several, separated by colons; empty: there is none.
 std::filesystem::path runtimeFolder();
 
 /// The last painting of a run, for the first picture of the next one: a PNG file of at most
