@@ -23,6 +23,7 @@ MOVED = 0.002
 FIRMWARE_SECONDS = 20  # under emulation: 7 on an idle machine, and the kernel needs longer than the rest
 FIRMWARE = "/usr/share/OVMF/OVMF_CODE_4M.fd"
 WORDS = "pleinair.software_gl modules_load=vivid"
+EDIT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "root", "usr", "lib", "pleinair", "bin", "grub-editenv")
 
 
 def partitions(disk):
@@ -41,16 +42,13 @@ def partitions(disk):
     return found
 
 
-def add_words(disk, folder):
-    """To what GRUB gives the kernel of slot a."""
-    place = f"{disk}@@{partitions(disk)['kernel-a']}"
-    boot = os.path.join(folder, "boot.cfg")
-    subprocess.run(["mcopy", "-n", "-i", place, "::boot.cfg", boot], check=True)
-    with open(boot) as file:
-        text = file.read()
-    with open(boot, "w") as file:
-        file.write(text.replace("; then if initrd", f" {WORDS}; then if initrd"))
-    subprocess.run(["mcopy", "-o", "-i", place, boot, "::boot.cfg"], check=True)
+def add_words(disk, folder, words=WORDS):
+    """To what GRUB gives the kernel, of whatever version; folder: for a file in between."""
+    place = f"{disk}@@{partitions(disk)['esp']}"
+    block = os.path.join(folder, "grubenv")
+    subprocess.run(["mcopy", "-n", "-o", "-i", place, "::EFI/BOOT/grubenv", block], check=True)
+    subprocess.run([EDIT, block, "set", f"WORDS={words}"], check=True)
+    subprocess.run(["mcopy", "-o", "-i", place, block, "::EFI/BOOT/grubenv"], check=True)
 
 
 class Machine:

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -76,10 +75,9 @@ std::unique_ptr<hal::VirtualTerminal> takeConsole() {
 
 hal::TimePoint endOf(const RescueOptions& options, hal::TimePoint now) {
   if (!options.time) return hal::kNoDeadline;
-  const char* const folder = options.backsOff ? std::getenv("RUNTIME_DIRECTORY") : nullptr;
-  if (folder == nullptr) return now + *options.time;
-  const hal::Duration time =
-      RescueBackOff(std::filesystem::path(folder) / "back-off").begin(*options.time, now);
+  const std::filesystem::path folder = runtimeFolder();
+  if (!options.backsOff || folder.empty()) return now + *options.time;
+  const hal::Duration time = RescueBackOff(folder / "back-off").begin(*options.time, now);
   spdlog::info("the service is tried again in {:.0f} s", hal::toSeconds(time));
   return now + time;
 }

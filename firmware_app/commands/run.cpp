@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -255,10 +254,10 @@ std::optional<SiteSetup> provisionedSite(const RunOptions& options, Configuratio
   return setup;
 }
 
-/// In the folder that a service manager has made for this run; empty: there is none.
+/// Empty: a run without a folder of its own makes none.
 std::filesystem::path steadyMark() {
-  const char* const folder = std::getenv("RUNTIME_DIRECTORY");
-  return folder == nullptr ? std::filesystem::path() : std::filesystem::path(folder) / "steady";
+  const std::filesystem::path folder = runtimeFolder();
+  return folder.empty() ? folder : folder / "steady";
 }
 
 /// The server's thread.

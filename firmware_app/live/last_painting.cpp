@@ -69,6 +69,11 @@ hal::Result<void> write(const fs::path& file, const hal::Image& painting) {
 
 }  // namespace
 
+fs::path runtimeFolder() {
+  const std::string folders = variable("RUNTIME_DIRECTORY");
+  return folders.substr(0, folders.find(':'));
+}
+
 fs::path stateFolder() {
   if (const std::string folder = variable("STATE_DIRECTORY"); !folder.empty()) {
     return folder.substr(0, folder.find(':'));  // the first of several

@@ -15,6 +15,10 @@ namespace pleinair::app {
 /// exist.
 std::filesystem::path stateFolder();
 
+/// The folder that a service manager has made for this run: the first of $RUNTIME_DIRECTORY, which
+/// may hold several, separated by colons; empty: there is none.
+std::filesystem::path runtimeFolder();
+
 /// The last painting of a run, for the first picture of the next one: a PNG file of at most
 /// kMaxSide pixels a side. One thread; files are written in the background.
 class LastPainting {

@@ -73,6 +73,19 @@ def run_in_system(disk, kernel, script, stick_file, folder, minutes):
         return file.read()
 
 
+def has_caption(screen):
+    """Whether a text lies over a painting: white on black that covers 63 %, from the upper left corner on
+    (pipeline/present/caption_picture.cpp)."""
+    letters = min(screen.width, screen.height) // 38
+    dark = count = 0
+    for y in range(letters, 2 * letters):
+        for x in range(letters, 10 * letters):
+            at = 3 * (y * screen.width + x)
+            dark += max(screen.pixels[at:at + 3]) <= 100
+            count += 1
+    return dark > 0.5 * count
+
+
 class Kiosk:
     """Switched on from `with` to its end. Restarts of the machine itself are its own matter."""
 

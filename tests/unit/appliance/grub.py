@@ -15,6 +15,11 @@ set environment=(hd0)/grubenv
 source (hd0)/slots.cfg
 next_slot
 echo "CHOSEN slot=$slot."
+function linux {
+  echo "KERNEL $@ END."
+  [ x = y ]
+}
+source (hd0)/boot.cfg
 halt
 """
 
@@ -46,10 +51,23 @@ class Disk:
         subprocess.run([EDIT, self._block, "create"], check=True)
         self._put(os.path.join(IMAGE, "slots.cfg"))
         self._put(self._block)
+        self._put(self._boot())
         with open(os.path.join(self.folder, "grub.cfg"), "w") as file:
             file.write(CONFIGURATION)
         with open(os.path.join(self.folder, "device.map"), "w") as file:
             file.write(f"(hd0) {self._disk}\n")
+
+    def _boot(self):
+        """boot.cfg as make-disk writes it."""
+        with open(os.path.join(IMAGE, "make-disk")) as file:
+            lines = re.search(r"^words=.*\necho .*boot.cfg\"$", file.read(), re.M).group(0)
+        os.makedirs(os.path.join(self.folder, "input"))
+        with open(os.path.join(IMAGE, "cmdline")) as file:
+            words = [line.strip() for line in file if not line.startswith("#")]
+        with open(os.path.join(self.folder, "input", "cmdline"), "w") as file:
+            file.write(" ".join(words) + "\n")
+        subprocess.run(["bash", "-c", lines], check=True, env={**os.environ, "work": self.folder})
+        return os.path.join(self.folder, "input", "boot.cfg")
 
     def close(self):
         self._folder.cleanup()
@@ -83,5 +101,7 @@ class Disk:
         command = f"grub-emu --directory='{self.folder}' --device-map='{self.folder}/device.map'"
         said = subprocess.run(["script", "-qec", command, "/dev/null"], stdin=subprocess.DEVNULL,
                               capture_output=True, timeout=60, env={**os.environ, "TERM": "dumb"}).stdout
+        plain = re.sub(rb"\x1b\[[0-9;?]*[A-Za-z]|[\r\n]", b"", said)  # lines are wrapped
+        self.kernel_words = re.search(rb"KERNEL (.*?) END\.", plain).group(1).decode().split() if b" END." in plain else []
         chosen = re.search(rb"CHOSEN slot=(\w*)\.", said)
         return chosen.group(1).decode() if chosen else None

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Which slot starts, over the life of a machine: GRUB's side (slots.cfg, run by GRUB's own interpreter) and the system's
 (`slots`), which share a block of variables. RAUC's part is what its GRUB backend writes."""
+import fcntl
 import os
 import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 sys.dont_write_bytecode = True
@@ -31,8 +33,8 @@ class Machine:
         self.running = self.disk.start()
         return self.running
 
-    def system(self, command, seconds=120, words=""):
-        """Runs `slots` in the running system. Returns whether it restarts the machine."""
+    def system(self, *command, seconds=120, words="", steady=False, installing=False, status=0):
+        """Runs `slots` in the running system. Returns whether it restarts the machine. `installing`: an installation goes on."""
         with tempfile.TemporaryDirectory() as folder:
             def write(name, text):
                 path = os.path.join(folder, name)
@@ -44,10 +46,17 @@ class Machine:
                 **os.environ, "PLEINAIR_GRUBENV": self.disk.block(), "PLEINAIR_MACHINE": folder,
                 "PLEINAIR_CMDLINE": write("cmdline", f"quiet pleinair.slot={self.running} {words}\n"),
                 "PLEINAIR_UPTIME": write("uptime", f"{seconds}.27 99.00\n"),
-                "PLEINAIR_RESTART": f"touch {folder}/restarted", "PLEINAIR_SETTLED": f"touch {folder}/settled"}
+                "PLEINAIR_RESTART": f"touch {folder}/restarted", "PLEINAIR_SETTLED": f"touch {folder}/settled",
+                "PLEINAIR_RELEASE": write("os-release", "IMAGE_VERSION=7.0\n"),
+                "PLEINAIR_STEADY": write("steady", "") if steady else os.path.join(folder, "none")}
             # The machine calls GRUB's tool by its name.
             environment["PATH"] = os.path.join(grub.TOOLS, "bin") + ":" + environment["PATH"]
-            subprocess.run([SLOTS, command], check=True, env=environment, capture_output=True)
+            with open(os.path.join(folder, "update.lock"), "w") as lock:
+                if installing:
+                    fcntl.flock(lock, fcntl.LOCK_EX)
+                done = subprocess.run([SLOTS, *command], env=environment, capture_output=True, text=True, timeout=30)
+            if done.returncode != status:
+                raise AssertionError(f"status {done.returncode}: {done.stderr}")
             self.disk.store()
             self.is_settled = os.path.exists(os.path.join(folder, "settled"))
             notice = os.path.join(folder, "notice")
@@ -57,14 +66,21 @@ class Machine:
                     self.notice = file.read().strip()
             return os.path.exists(os.path.join(folder, "restarted"))
 
-    def paint(self):
-        self.system("confirm")
+    def paint(self, **how):
+        self.system("confirm", **how)
+
+    def begin_to_install(self, slot, version="2.0"):
+        """What install-update writes, and then RAUC."""
+        self.system("begin", version)
+        self.disk.set(**{f"{slot}_OK": 0, f"{slot}_TRY": 0})
 
     def install(self, slot, version="2.0"):
-        """What install-update and RAUC write."""
+        self.begin_to_install(slot, version)
+        self.rauc_ends(slot)
+        self.system("installed", version)
+
+    def rauc_ends(self, slot):
         other = "b" if slot == "a" else "a"
-        self.disk.set(TRIAL=version)
-        self.disk.set(**{f"{slot}_OK": 0, f"{slot}_TRY": 0})
         self.disk.set(**{"ORDER": f"{slot} {other}", f"{slot}_OK": 1, f"{slot}_TRY": 0})
 
 
@@ -154,10 +170,105 @@ class Slots(unittest.TestCase):
     def test_a_half_written_slot_is_not_started(self):
         self.machine.switch_on()
         self.machine.paint()
-        self.machine.disk.set(TRIAL="2.0", b_OK=0, b_TRY=0)  # the power was cut while RAUC wrote
+        self.machine.begin_to_install("b")  # the power was cut while RAUC wrote
         self.assertEqual(self.starts(3), "aaa")
         self.machine.paint()
         self.assertEqual(self.machine.notice, "")
+
+    def paints_in_a_and_has_updated_b(self, version="2.0"):
+        self.machine.switch_on()
+        self.machine.paint()
+        self.machine.install("b", version)
+
+    def values(self, *names):
+        values = self.machine.disk.values()
+        return tuple(values.get(name) for name in names)
+
+    def test_a_confirmation_while_an_installation_goes_on_forgets_nothing(self):
+        self.machine.switch_on()
+        self.machine.begin_to_install("b", "2.0")
+        self.machine.paint(installing=True)
+        self.assertEqual(self.values("TRIAL", "ORDER", "CONFIRMED"), ("2.0", "a b", "a"))
+        self.machine.rauc_ends("b")
+        self.machine.paint(installing=True)
+        self.assertEqual(self.values("TRIAL", "ORDER", "FAILED"), ("2.0", "b a", None))
+        self.machine.system("installed", "2.0")
+        self.machine.switch_on()
+        self.assertTrue(self.machine.system("check", seconds=600))
+        self.machine.switch_on()
+        self.machine.paint()
+        self.assertEqual(self.values("FAILED", "TRIAL"), ("2.0", ""))
+
+    def test_a_version_that_waits_for_the_restart_has_not_failed(self):
+        self.paints_in_a_and_has_updated_b()
+        self.machine.paint()  # until the shutdown ends
+        self.assertEqual(self.machine.notice, "")
+        self.assertEqual(self.values("ORDER", "TRIAL", "b_OK", "FAILED"), ("b a", "2.0", "1", None))
+        self.assertEqual(self.machine.switch_on(), "b")
+
+    def test_a_version_that_is_half_written_over_one_that_failed_has_not_failed(self):
+        self.paints_in_a_and_has_updated_b()
+        self.assertEqual(self.starts(4), "bbba")
+        self.machine.begin_to_install("b", "2.1")
+        self.assertEqual(self.values("FAILED", "ORDER"), ("2.0", "a b"))
+        self.machine.paint(installing=True)
+        self.assertEqual(self.values("FAILED", "TRIAL"), ("2.0", "2.1"))
+        self.assertEqual(self.starts(1), "a", "the power was cut")
+        self.machine.paint()
+        self.assertEqual(self.values("FAILED", "TRIAL", "ORDER"), ("2.0", "", "a b"))
+        self.assertEqual(self.machine.notice, "")
+
+    def test_what_another_program_has_left_half_written_in_front_has_not_failed(self):
+        self.paints_in_a_and_has_updated_b()
+        self.machine.running = "a"
+        self.machine.disk.set(b_OK=0, b_TRY=0)
+        self.machine.paint()
+        self.assertEqual(self.values("ORDER", "FAILED"), ("a b", None))
+
+    def test_the_newest_version_that_failed_is_remembered(self):
+        for version in ("2.1", "2.0"):
+            self.paints_in_a_and_has_updated_b(version)
+            self.assertEqual(self.starts(4), "bbba")
+            self.machine.paint()
+            self.assertEqual(self.machine.notice, f"Version {version} did not paint here and was taken back.")
+        self.assertEqual(self.values("FAILED"), ("2.1",))
+
+    def test_a_version_whose_name_was_lost_is_remembered_by_its_own_word(self):
+        self.paints_in_a_and_has_updated_b()
+        self.machine.disk.set(TRIAL="", FAILED="1.0")
+        self.machine.switch_on()
+        self.assertTrue(self.machine.system("check", seconds=600))
+        self.assertEqual(self.values("FAILED"), ("7.0",))
+
+    def test_a_slot_that_cannot_be_named_is_not_called_by_an_older_failure(self):
+        self.paints_in_a_and_has_updated_b()
+        self.machine.disk.set(TRIAL="", FAILED="1.0")
+        self.assertEqual(self.starts(4), "bbba")
+        self.machine.paint()
+        self.assertEqual(self.machine.notice, "The version in the other slot did not paint here and was taken back.")
+
+    def test_the_slot_to_go_back_to_is_not_given_away(self):
+        self.paints_in_a_and_has_updated_b()
+        self.assertEqual(self.machine.switch_on(), "b")
+        before = self.machine.disk.values()
+        self.machine.system("begin", "2.1", status=3)
+        self.assertEqual(self.machine.disk.values(), before)
+        self.machine.paint()
+        self.machine.install("a", "2.1")
+        self.assertEqual(self.machine.switch_on(), "a")
+
+    def test_a_confirmed_slot_that_is_overwritten_is_no_longer_confirmed(self):
+        self.machine.switch_on()
+        self.machine.disk.set(CONFIRMED="b", b_OK=0)
+        self.machine.install("b")
+        self.assertEqual(self.values("CONFIRMED"), ("",))
+
+    def test_a_confirmation_that_did_not_come_through_is_made_up_for(self):
+        self.paints_in_a_and_has_updated_b()
+        self.machine.switch_on()
+        self.assertFalse(self.machine.system("check", seconds=600, steady=True))
+        self.assertEqual(self.values("CONFIRMED"), ("b",))
+        self.assertTrue(self.machine.is_settled)
 
     def test_power_cuts_while_on_trial_do_not_lose_an_update_that_then_paints(self):
         self.machine.switch_on()
@@ -182,6 +293,20 @@ class Slots(unittest.TestCase):
         values = self.machine.disk.values()
         self.assertEqual((values["ORDER"], values["CONFIRMED"], values["b_OK"]), ("a b", "a", "1"))
         self.assertEqual(self.starts(2), "aa")
+
+    def test_the_machines_words_are_given_to_every_version(self):
+        self.machine.switch_on()
+        self.assertIn("quiet", self.machine.disk.kernel_words)
+        words = "pleinair.software_gl pleinair.trial_minutes=20"
+        self.machine.disk.set(WORDS=words)
+        for slot in "ab":
+            self.assertEqual(self.machine.switch_on(), slot)
+            given = self.machine.disk.kernel_words
+            self.assertEqual(given[-2:], words.split())
+            self.assertIn("pleinair.slot=" + slot, given)
+            self.machine.paint()
+            self.machine.install("b")
+        self.assertEqual(self.values("WORDS"), (words,))
 
     def test_words_that_are_none_start_slot_a(self):
         self.machine.disk.set(ORDER="x", a_TRY="many", CONFIRMED="neither")
@@ -210,6 +335,39 @@ class Block(unittest.TestCase):
         self.assertEqual(grub.read_block(self.file), {"a_TRYING": "2", "a_TRY": "3"})
         subprocess.run([grub.EDIT, self.file, "unset", "a_TRY"], check=True)
         self.assertEqual(grub.read_block(self.file), {"a_TRYING": "2"})
+
+    def test_writers_wait_for_each_other(self):
+        writers = [subprocess.Popen([grub.EDIT, self.file, "set", f"name_{i}={i}"]) for i in range(20)]
+        self.assertEqual([each.wait(30) for each in writers], [0] * 20)
+        self.assertEqual(grub.read_block(self.file), {f"name_{i}": str(i) for i in range(20)})
+
+    def test_a_caller_that_has_the_lock_can_write(self):
+        with open(self.file) as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            other = subprocess.Popen([grub.EDIT, self.file, "set", "other=1"])
+            subprocess.run([grub.EDIT, self.file, "set", "own=1"], check=True, timeout=30,
+                           env={**os.environ, "PLEINAIR_GRUBENV_LOCKED": "1"})
+            self.assertIsNone(other.poll())
+        self.assertEqual(other.wait(30), 0)
+        self.assertEqual(grub.read_block(self.file), {"own": "1", "other": "1"})
+
+    def test_a_slot_is_judged_by_what_no_other_writer_is_about_to_change(self):
+        grub.write_block(self.file, ORDER="a b", a_OK=1, a_TRY=1, b_OK=0, b_TRY=0)
+        folder = os.path.dirname(self.file)
+        with open(os.path.join(folder, "cmdline"), "w") as file:
+            file.write("pleinair.slot=a\n")
+        environment = {**os.environ, "PATH": os.path.join(grub.TOOLS, "bin") + ":" + os.environ["PATH"],
+                       "PLEINAIR_GRUBENV": self.file, "PLEINAIR_MACHINE": folder, "PLEINAIR_SETTLED": "true",
+                       "PLEINAIR_CMDLINE": os.path.join(folder, "cmdline"), "PLEINAIR_GRUBENV_LOCKED": "1"}
+        with open(self.file) as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            confirming = subprocess.Popen([SLOTS, "confirm"], env=environment, stdout=subprocess.DEVNULL)
+            time.sleep(1)
+            self.assertNotIn("CONFIRMED", grub.read_block(self.file))
+            subprocess.run([grub.EDIT, self.file, "set", "ORDER=b a", "b_OK=1", "TRIAL=2.0"], check=True, env=environment)
+        self.assertEqual(confirming.wait(30), 0)
+        values = grub.read_block(self.file)
+        self.assertEqual((values["ORDER"], values["TRIAL"], values["CONFIRMED"]), ("b a", "2.0", "a"))
 
     def test_what_does_not_fit_is_refused_and_changes_nothing(self):
         grub.write_block(self.file, ORDER="a b")

@@ -28,8 +28,19 @@ class Units(unittest.TestCase):
                     self.write(name, file.read().replace("/usr/lib/pleinair/", grub.TOOLS + "/"))
         for name in ("pleinair-kiosk", "pleinair-repair-station", "dbus"):
             self.write(name + ".service", "[Service]\nExecStart=/bin/true\n")
+        # What they are dropped into comes from packages.
+        self.write("rauc.service", "[Service]\nExecStart=/bin/true\n")
+        self.write("media-pleinair.mount", "[Mount]\nWhat=/dev/sda1\nWhere=/media/pleinair\n")
+        for name in self.drop_ins():
+            with open(os.path.join(UNITS, name)) as file:
+                self.write(name, file.read())
+
+    def drop_ins(self):
+        return [os.path.join(each, name) for each in os.listdir(UNITS) if each.endswith(".d")
+                for name in os.listdir(os.path.join(UNITS, each))]
 
     def write(self, name, text):
+        os.makedirs(os.path.dirname(os.path.join(self.folder, name)), exist_ok=True)
         with open(os.path.join(self.folder, name), "w") as file:
             file.write(text)
 
@@ -47,6 +58,43 @@ class Units(unittest.TestCase):
         for name in self.names():
             with self.subTest(unit=name):
                 self.assertEqual(self.verify(name), "")
+
+    def test_what_is_dropped_into_others_is_well_formed(self):
+        units = {os.path.dirname(each)[:-len(".d")] for each in self.drop_ins()}
+        self.assertEqual(units, {"rauc.service", "media-pleinair.mount"})
+        for name in units:
+            with self.subTest(unit=name):
+                self.assertEqual(self.verify(name), "")
+        self.write("rauc.service.d/pleinair.conf", "[Service]\nTypo=yes\n")
+        self.assertIn("Typo", self.verify("rauc.service"))
+
+    def value(self, unit, name):
+        with open(os.path.join(UNITS, unit)) as file:
+            return re.search(f"^{name}=(.*)$", file.read(), re.M).group(1)
+
+    def test_a_confirmation_that_fails_is_made_again_and_again(self):
+        self.assertEqual(self.value("confirm-slot.service", "Restart"), "on-failure")
+        self.assertEqual(self.value("confirm-slot.service", "StartLimitIntervalSec"), "0")
+
+    def test_only_a_refusal_is_no_failure(self):
+        self.assertEqual(self.value("install-update@.service", "SuccessExitStatus"), "3")
+
+    def test_a_stick_that_is_pulled_is_known_by_the_name_it_had(self):
+        with open(os.path.join(grub.IMAGE, "root", "etc", "udev", "rules.d", "61-pleinair-machine.rules")) as file:
+            self.assertIn('ACTION=="remove", RUN+="/usr/lib/pleinair/install-update --gone /dev/%k"', file.read())
+        self.assertEqual(self.value("install-update@.service", "ExecStart"), "/usr/lib/pleinair/install-update /dev/%I")
+
+    def test_painting_services_do_not_see_the_bus(self):
+        for name in ("pleinair-painting.service.in", "pleinair-rescue@.service.in"):
+            with open(os.path.join(grub.SOURCE, "systemd", name)) as file:
+                self.assertIn("\nInaccessiblePaths=-/run/dbus\n", file.read())
+
+    def test_five_starts_that_hang_fall_into_the_time_that_they_are_counted_in(self):
+        with open(os.path.join(grub.SOURCE, "systemd", "pleinair-painting.service.in")) as file:
+            seconds = dict(re.findall(r"^(\w+)=(\d+)$", file.read(), re.M))
+        starts = int(seconds["StartLimitBurst"])
+        longest = starts * (int(seconds["TimeoutStartSec"]) + int(seconds["TimeoutStopSec"]) + 0.5)
+        self.assertGreater(int(seconds["StartLimitIntervalSec"]), longest + 30)
 
     def test_mistakes_would_be_seen(self):
         self.write("slot-on-trial.service", "[Service]\nType=oneshot\nExecStart=/nowhere/program\nTypo=yes\n")

@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
 """Bundles as they are made, judged, and installed from a folder: each refusal is a line on the screen. RAUC itself reads them;
 what it would write to slots is left out here (tests/system/appliance)."""
+import fcntl
 import os
 import random
 import shutil
+import stat
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 sys.dont_write_bytecode = True
@@ -22,7 +25,11 @@ MISSING = next((each for each in ("rauc", "mksquashfs", "veritysetup", "openssl"
 
 RAUC = """#!/bin/sh
 case $1 in
-  install) echo "installing"; echo " 40% Copying image to root.1"; echo "$2" >"{folder}/installed"; {outcome} ;;
+  install)
+    echo "installing"; echo " 40% Copying image to root.1"; echo "$2" >>"{folder}/installed"
+    {edit} {folder}/grubenv set b_OK=0 b_TRY=0
+    {outcome}
+    {edit} {folder}/grubenv set "ORDER=b a" b_OK=1 b_TRY=0 ;;
   *) exec {rauc} --keyring={key}/update.crt "$@" ;;
 esac
 """
@@ -66,7 +73,9 @@ class Updates(unittest.TestCase):
         subprocess.run([grub.EDIT, self.block, "create"], check=True)
         self.write("os-release", 'NAME="Debian"\nIMAGE_VERSION=1.5\n')
         self.write("system.conf", "[system]\ncompatible=pleinair-amd64\n")
-        self.rauc_answers("exit 0")
+        self.write("cmdline", "quiet pleinair.slot=a\n")
+        self.write("uptime", "20.5 9.0\n")
+        self.rauc_answers("true")
 
     def write(self, name, text):
         with open(os.path.join(self.folder, name), "w") as file:
@@ -74,7 +83,7 @@ class Updates(unittest.TestCase):
 
     def rauc_answers(self, outcome):
         os.makedirs(os.path.join(self.folder, "bin"), exist_ok=True)
-        self.write("bin/rauc", RAUC.format(folder=self.folder, outcome=outcome, key=self.key,
+        self.write("bin/rauc", RAUC.format(folder=self.folder, outcome=outcome, key=self.key, edit=grub.EDIT,
                                            rauc=shutil.which("rauc", path=PATH)))
         os.chmod(os.path.join(self.folder, "bin/rauc"), 0o755)
 
@@ -84,21 +93,31 @@ class Updates(unittest.TestCase):
     def shorten(self, name, size):
         os.truncate(os.path.join(self.stick, name), size)
 
-    def install(self, place=None):
-        """Returns the exit status and what the screen says at the end."""
+    def begin(self, *place, restart=None):
+        """`place`: the script's arguments; else the stick."""
         environment = {
             **os.environ, "PLEINAIR_LIBRARY_FOLDER": grub.TOOLS, "PLEINAIR_MACHINE": os.path.join(self.folder, "run"),
             "PLEINAIR_RELEASE": os.path.join(self.folder, "os-release"), "PLEINAIR_GRUBENV": self.block,
             "PLEINAIR_RAUC": os.path.join(self.folder, "system.conf"),
-            "PLEINAIR_RESTART": f"touch {self.folder}/restarted",
+            "PLEINAIR_CMDLINE": os.path.join(self.folder, "cmdline"), "PLEINAIR_UPTIME": os.path.join(self.folder, "uptime"),
+            "PLEINAIR_RESTART": restart or f"touch {self.folder}/restarted",
             "PATH": f"{self.folder}/bin:{grub.TOOLS}/bin:{PATH}"}
-        done = subprocess.run([INSTALL, place or self.stick], env=environment, capture_output=True, text=True)
-        self.said = done.stdout
+        process = subprocess.Popen([INSTALL, *(place or [self.stick])], env=environment, stdout=subprocess.PIPE, text=True)
+        self.addCleanup(process.stdout.close)
+        return process
+
+    def install(self, *place, restart=None):
+        """Returns the exit status and what the screen says at the end."""
+        done = self.begin(*place, restart=restart)
+        self.said = done.communicate(timeout=60)[0]
+        return done.returncode, self.notice()
+
+    def notice(self):
         notice = os.path.join(self.folder, "run", "notice")
         if not os.path.exists(notice):
-            return done.returncode, ""
+            return ""
         with open(notice) as file:
-            return done.returncode, file.read().strip()
+            return file.read().strip()
 
     def has(self, name):
         return os.path.exists(os.path.join(self.folder, name))
@@ -106,7 +125,7 @@ class Updates(unittest.TestCase):
     def refused(self):
         """What the screen says of a stick from which nothing is to be installed."""
         status, notice = self.install()
-        self.assertEqual(status, 1, notice)
+        self.assertEqual(status, 3, notice)
         self.assertFalse(self.has("installed") or self.has("restarted"), notice)
         return notice
 
@@ -204,6 +223,55 @@ class Updates(unittest.TestCase):
         self.put(self.bundle("foreign", "2.0", key=self.other_key))
         self.assertEqual(len(self.refused().splitlines()), 2)
 
+    def test_a_bundle_of_other_machines_does_not_change_what_this_machine_is(self):
+        self.put(self.bundle("arm", "2.0", arch="arm64"), "a.raucb")
+        self.put(self.good, "b.raucb")
+        self.assertEqual(self.install()[0], 0)
+        self.put(self.bundle("arm", "3.0", arch="arm64"), "a.raucb")
+        self.put(self.bundle("arm", "3.0", arch="arm64"), "b.raucb")
+        os.remove(os.path.join(self.folder, "run", "restarts"))
+        self.assertEqual(self.install()[1].count("this is pleinair-amd64"), 2)
+
+    def test_two_versions_that_fail_are_not_tried_in_turns(self):
+        self.put(self.good)
+        self.put(self.bundle("newer", "2.1"))
+        grub.write_block(self.block, FAILED="2.1")
+        self.assertEqual(self.refused(), "good.raucb is version 2.0, and version 2.1, which is newer, did not paint here and "
+                                         "was taken back.\n"
+                                         "newer.raucb is version 2.1, which did not paint here and was taken back.")
+
+    def test_a_version_is_tried_again_where_a_person_asks_for_it(self):
+        grub.write_block(self.block, FAILED="2.0")
+        self.put(self.good)
+        self.write("stick/retry", "")
+        self.refused()  # at power on, a stick that was left in
+        self.write("uptime", "181.0 9.0\n")
+        self.assertEqual(self.install()[0], 0)
+
+    def test_the_slot_to_go_back_to_is_not_overwritten_by_a_version_on_trial(self):
+        grub.write_block(self.block, ORDER="a b", a_OK=1, a_TRY=1, b_OK=1, b_TRY=0, CONFIRMED="b")
+        self.put(self.good)
+        self.assertEqual(self.refused(), "Version 1.5 is still on trial: plug the stick in again once it has painted for a "
+                                         "minute.")
+        self.assertEqual(grub.read_block(self.block)["CONFIRMED"], "b")
+        grub.write_block(self.block, b_OK=0)  # nothing to go back to
+        self.assertEqual(self.install()[0], 0)
+        self.assertEqual(grub.read_block(self.block)["CONFIRMED"], "", "it is overwritten")
+
+    def test_a_failed_version_in_front_is_remembered_when_it_is_overwritten(self):
+        grub.write_block(self.block, ORDER="b a", a_OK=1, b_OK=1, b_TRY=3, CONFIRMED="a", TRIAL="1.9")
+        self.rauc_answers("exit 1")
+        self.put(self.good)
+        self.assertEqual(self.install()[0], 1)
+        values = grub.read_block(self.block)
+        self.assertEqual((values["ORDER"], values["FAILED"], values["TRIAL"]), ("a b", "1.9", ""))
+
+    def test_the_version_in_use_is_written_anew_after_the_installation(self):
+        self.rauc_answers(f"{grub.EDIT} {self.folder}/grubenv set TRIAL=")
+        self.put(self.good)
+        self.assertEqual(self.install()[0], 0)
+        self.assertEqual(grub.read_block(self.block)["TRIAL"], "2.0")
+
     def test_links_and_hidden_files_are_left_out(self):
         os.symlink(self.good, os.path.join(self.stick, "link.raucb"))
         self.put(self.good, "._good.raucb")
@@ -218,6 +286,111 @@ class Updates(unittest.TestCase):
                                  "I/O error\nVersion 1.5 goes on.")
         self.assertFalse(self.has("restarted"))
         self.assertEqual(grub.read_block(self.block).get("TRIAL"), "")
+
+    def test_an_installation_that_is_ended_is_said(self):
+        self.rauc_answers("kill $PPID; sleep 0.2; exit 1")
+        self.put(self.good)
+        status, notice = self.install()
+        self.assertNotIn(status, (0, 3))
+        self.assertIn("Version 2.0 could not be installed", notice)
+        self.assertEqual(grub.read_block(self.block).get("TRIAL"), "")
+
+    def test_a_failure_is_no_refusal_whatever_its_number(self):
+        self.rauc_answers("exit 3")
+        self.put(self.good)
+        self.assertEqual(self.install()[0], 1)
+
+    def test_a_machine_that_cannot_restart_says_what_to_do(self):
+        self.put(self.good)
+        self.assertEqual(self.install(restart="false"), (1, "Version 2.0 is installed: switch the machine off and on."))
+
+    def test_what_a_stick_has_shown_goes_with_it(self):
+        self.put(self.bundle("old", "1.4"))
+        self.refused()
+        self.assertNotEqual(self.notice(), "")
+        self.assertNotEqual(self.install("--gone", "/dev/other")[1], "")
+        self.assertEqual(self.install("--gone", self.stick)[1], "")
+        self.write("run/notice", "Version 2.0 did not paint here and was taken back.\n")
+        self.assertNotEqual(self.install("--gone", self.stick)[1], "", "no stick has said that")
+
+    def program(self, name, text):
+        self.write("bin/" + name, "#!/bin/sh\n" + text)
+        os.chmod(os.path.join(self.folder, "bin", name), 0o755)
+
+    def device(self):
+        """A block device whose content is that of the stick's folder, as far as `mount` is asked."""
+        device = os.path.join(self.folder, "sdz1")
+        try:
+            os.mknod(device, 0o600 | stat.S_IFBLK, os.makedev(7, 99))
+        except PermissionError:
+            self.skipTest("only root makes devices")
+        self.program("mount", f'echo "$@" >{self.folder}/mounted; for place; do :; done; cp {self.stick}/* "$place"/\n')
+        self.program("umount", f'rm "$1"/*; echo "$@" >{self.folder}/unmounted\n')
+        return device
+
+    def test_a_device_is_mounted_read_only_and_let_go_whatever_happens(self):
+        device, place = self.device(), os.path.join(self.folder, "run", "stick")
+        self.put(self.bundle("old", "1.4"))
+        for bundle, status in ((None, 3), (self.good, 0)):
+            if bundle:
+                self.put(bundle)
+            self.assertEqual(self.install(device)[0], status)
+            with open(os.path.join(self.folder, "mounted")) as file:
+                self.assertEqual(file.read(), f"-o ro,nosuid,nodev,noexec {device} {place}\n")
+            with open(os.path.join(self.folder, "unmounted")) as file:
+                self.assertEqual(file.read(), place + "\n")
+            os.remove(os.path.join(self.folder, "unmounted"))
+
+    def test_what_a_device_has_shown_goes_with_it(self):
+        device = self.device()
+        self.put(self.bundle("old", "1.4"))
+        self.assertIn("is older", self.install(device)[1])
+        self.assertEqual(self.install("--gone", device)[1], "")
+
+    def test_a_stick_that_is_pulled_while_it_is_judged_leaves_nothing_behind(self):
+        self.put(self.bundle("old", "1.4"))
+        self.write("bin/rauc", f"#!/bin/sh\nrm -r {self.stick}\nexit 1\n")
+        self.assertEqual(self.install(), (3, ""))
+
+    def test_a_stick_without_bundles_takes_away_what_another_had_shown(self):
+        self.put(self.bundle("old", "1.4"))
+        self.refused()
+        os.remove(os.path.join(self.stick, "old.raucb"))
+        self.assertEqual(self.install(), (0, ""))
+
+    def test_the_stick_that_the_running_version_came_from_is_not_announced(self):
+        self.put(self.bundle("old", "1.4"))
+        self.put(self.bundle("same", "1.5"))
+        grub.write_block(self.block, TRIAL="1.5")
+        self.assertEqual(self.install(), (0, ""))
+        self.assertIn("is version 1.5, which this machine has", self.said)
+        self.put(self.good)
+        self.assertTrue(self.install()[1].startswith("Version 2.0 is installed"), "a newer one is taken all the same")
+
+    def test_a_second_stick_waits_and_is_left_alone_while_the_machine_goes_down(self):
+        self.rauc_answers("sleep 2")
+        self.put(self.good)
+        other = os.path.join(self.folder, "other")
+        shutil.copytree(self.stick, other)
+        first = self.begin()
+        time.sleep(1)
+        second = self.begin(other)
+        self.assertEqual((first.wait(30), second.wait(30)), (0, 0))
+        with open(os.path.join(self.folder, "installed")) as file:
+            self.assertEqual(file.read(), os.path.join(self.stick, "good.raucb") + "\n")
+        self.assertIn("Version 2.0 is installed", self.notice())
+
+    def test_a_stick_that_was_pulled_while_it_waited_is_no_bundle(self):
+        lock = os.path.join(self.folder, "run", "update.lock")
+        os.makedirs(os.path.dirname(lock))
+        with open(lock, "w") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            waiting = self.begin()
+            time.sleep(0.5)
+            self.assertIsNone(waiting.poll())
+            os.rmdir(self.stick)
+        self.assertEqual(waiting.wait(30), 0)
+        self.assertEqual(self.notice(), "")
 
     def test_a_failure_without_a_reason_is_said_in_its_last_words(self):
         self.rauc_answers("echo 'no bus'; exit 1")

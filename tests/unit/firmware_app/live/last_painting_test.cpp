@@ -134,5 +134,14 @@ TEST(StateFolder, IsTheServicesElseTheUsers) {
   EXPECT_TRUE(stateFolder().empty());
 }
 
+TEST(RuntimeFolder, IsTheFirstOfTheServices) {
+  support::setVariable("RUNTIME_DIRECTORY", "/run/one:/run/two");
+  EXPECT_EQ(runtimeFolder(), "/run/one");
+  support::setVariable("RUNTIME_DIRECTORY", "/run/one");
+  EXPECT_EQ(runtimeFolder(), "/run/one");
+  support::setVariable("RUNTIME_DIRECTORY", nullptr);
+  EXPECT_TRUE(runtimeFolder().empty());
+}
+
 }  // namespace
 }  // namespace pleinair::app
