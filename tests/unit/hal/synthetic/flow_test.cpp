@@ -94,7 +94,7 @@ TEST(SyntheticFlow, FollowsASlowHandAndWhatItUncovers) {
 TEST(SyntheticFlow, FollowsThePartsOfPersons) {
   expectFlowOfOracle(SyntheticShot::kVisitors, 95, 99, 120, 150);
   expectFlowOfOracle(SyntheticShot::kVisitors, 300, 340, 120, 150);
-  expectFlowOfOracle(SyntheticShot::kCrossing, 92, 98, 40, 50);
+  expectFlowOfOracle(SyntheticShot::kCrossing, 92, 98, 120, 149);
 }
 
 TEST(SyntheticFlow, IsTheOraclesAcrossACut) {

@@ -225,6 +225,34 @@ TEST_F(V4l2Faults, ADeviceThatMayNotBeOpenedSaysWhatToDo) {
   EXPECT_THAT(error.message(), HasSubstr("usermod -aG video"));
 }
 
+// The kernel asks for permission where a node is opened: an open stream goes on.
+TEST_F(V4l2Faults, PermissionThatIsWithdrawnWhileStreamingIsMissedOnceItIsOpenedAgain) {
+  plug().openFailure = EACCES;
+  EXPECT_EQ(startError().kind, ErrorKind::kPermissionDenied);
+  support::FakeVideo& video = plug();
+  startOrFail();
+  frameOrFail();
+  video.openFailure = EACCES;
+  frameOrFail();
+  kernel_.unplug(kNode, ENODEV);
+  answerOrFail<CameraLost>();
+  camera().stop();
+  plug({.openFailure = EACCES});
+  EXPECT_THAT(startError().message(), HasSubstr("usermod -aG video"));
+  expectNothingLeft();
+  plug();
+  startOrFail();
+  frameOrFail();
+}
+
+TEST_F(V4l2Faults, ARequestThatIsForbiddenInMidStreamSaysSo) {
+  support::FakeVideo& video = plug();
+  startOrFail();
+  frameOrFail();
+  video.failures[VIDIOC_DQBUF] = EPERM;
+  EXPECT_EQ(answerOrFail<Error>().kind, ErrorKind::kPermissionDenied);
+}
+
 TEST_F(V4l2Faults, ADeviceThatIsNotThereSaysSo) {
   EXPECT_EQ(startError().kind, ErrorKind::kNotFound);
 }
