@@ -1,5 +1,6 @@
 #include "hal/cameras/libcamera/frame_layout.h"
 
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -52,9 +53,9 @@ BufferMemory memoryOf(const std::vector<std::vector<std::uint8_t>>& planes) {
 
 TEST(PlanesIn, FollowEachOtherOrAreSeparate) {
   // 4x2, stride 8: luma 16 bytes, chroma a quarter each at half the stride.
-  std::vector<std::uint8_t> bytes(24);
-  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i);
-  const auto together = planesIn(memoryOf({bytes}), *findLayout(kI420), {4, 2}, 8);
+  std::vector<std::vector<std::uint8_t>> one{std::vector<std::uint8_t>(24)};
+  std::iota(one.front().begin(), one.front().end(), std::uint8_t{0});
+  const auto together = planesIn(memoryOf(one), *findLayout(kI420), {4, 2}, 8);
   ASSERT_TRUE(together);
   EXPECT_EQ((*together)[0].bytes.size(), 12u) << "the last row without its padding";
   EXPECT_EQ((*together)[1].bytes[0], 16);
@@ -69,12 +70,12 @@ TEST(PlanesIn, FollowEachOtherOrAreSeparate) {
 }
 
 TEST(PlanesIn, RefusesBuffersThatAreTooSmall) {
-  const std::vector<std::uint8_t> bytes(24 - 3);
-  EXPECT_FALSE(planesIn(memoryOf({bytes}), *findLayout(kI420), {4, 2}, 8));
-  EXPECT_FALSE(planesIn(memoryOf({bytes}), *findLayout(kI420), {4, 2}, 3)) << "a stride too short";
+  const std::vector<std::vector<std::uint8_t>> one{std::vector<std::uint8_t>(24 - 3)};
+  EXPECT_FALSE(planesIn(memoryOf(one), *findLayout(kI420), {4, 2}, 8));
+  EXPECT_FALSE(planesIn(memoryOf(one), *findLayout(kI420), {4, 2}, 3)) << "a stride too short";
   EXPECT_FALSE(planesIn(BufferMemory{}, *findLayout(kNv12), {4, 2}, 4));
   // Of three rows, two strides overflow to 0.
-  EXPECT_FALSE(planesIn(memoryOf({bytes}), *findLayout(kNv12), {4, 3}, std::size_t{1} << 63));
+  EXPECT_FALSE(planesIn(memoryOf(one), *findLayout(kNv12), {4, 3}, std::size_t{1} << 63));
 }
 
 TEST(SwapToRgb, ExchangesRedAndBlueOfEveryRow) {
