@@ -66,7 +66,7 @@ struct StreamFormat {
   /// Where its frames lie, but for copies that are made while all buffers are leased.
   FrameMemory memory = FrameMemory::kProcessor;
   std::string memoryNote;  ///< the allocator's name, or why it was not used; may be empty
-  /// Of CapturedFrame::luma: kGrey8; unset: frames have none.
+  /// The format of CapturedFrame::luma: kGrey8; unset: frames have none.
   std::optional<FrameFormat> luma = std::nullopt;
   std::string lumaNote;  ///< why they have none although it was asked for; may be empty
 };

@@ -21,7 +21,7 @@ struct Reload {
 Reload reloaded(const ConfigurationRequest& request, const Configuration& started,
                 const PaintingOptions& painting);
 
-/// What came of it, as it is told.
+/// The outcome of a reload, as people are told.
 struct ReloadOutcome {
   std::optional<PaintingOptions> painting;  ///< nothing: the last ones stay in force
   std::string notice;

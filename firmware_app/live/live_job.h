@@ -23,6 +23,7 @@
 #include "hal/keyboards/keyboards.h"
 #include "hal/machine/machine_state.h"
 #include "hal/supervisor/camera_selector.h"
+#include "pipeline/engine/camera_path.h"
 #include "pipeline/scene/description/scene.h"
 
 namespace pleinair::app {
@@ -74,6 +75,14 @@ struct LiveJob {
   std::function<Reload()> reload;
 
   bool tracksTags() const { return !scene.tags.empty() || !inputs.cards.empty(); }
+
+  /// The request to the camera. Tags are found in whole frames; all else that trackers do, they do
+  /// in an image of kTrackedSidePx, which some cameras make.
+  hal::StreamRequest cameraRequest() const {
+    hal::StreamRequest asked = request;
+    if (!tracksTags()) asked.lumaSidePx = kTrackedSidePx;
+    return asked;
+  }
 };
 
 }  // namespace pleinair::app

@@ -56,14 +56,6 @@ constexpr hal::Duration kWindowPatience = 1s;
 /// Part of the two seconds that ending may take; the rest is for the exit itself.
 constexpr hal::Duration kStopPatience = 1500ms;
 
-/// What is asked of the camera. Tags are found in whole frames; all else that trackers do, they do
-/// in an image of this size, which some cameras make.
-hal::StreamRequest streamOf(const LiveJob& job) {
-  hal::StreamRequest request = job.request;
-  if (!job.tracksTags()) request.lumaSidePx = kTrackedSidePx;
-  return request;
-}
-
 /// The life of a live pipeline, from waiting for its camera to its closing line, with its status
 /// server and reports. Main thread.
 class LivePainting {
@@ -73,7 +65,7 @@ class LivePainting {
         controls_({job.options.style, startParameters(job.options)}),
         reporter_(qualityNames()),
         input_(job, controls_, reporter_),
-        supervisor_(*job.selector, *job.clock, {}, streamOf(job)),
+        supervisor_(*job.selector, *job.clock, {}, job.cameraRequest()),
         pipeline_(supervisor_, *job.clock),
         outputs_(job, pipeline_, reporter_, openFrameLog()),
         snapshots_(job.snapshots, controls_, input_, notifier()),

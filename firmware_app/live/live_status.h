@@ -32,7 +32,7 @@ class LiveStatus {
   }
   /// Before the camera's first frame there are neither outputs nor a painter.
   runtime::RuntimeStatus now() const;
-  /// What the server answers; valid as long as this is.
+  /// The pages that the status server answers with; valid as long as this is.
   StatusPages pages() const;
 
  private:

@@ -12,7 +12,7 @@ namespace pleinair::app {
 inline constexpr std::size_t kMostNoticeBytes = 1000;
 inline constexpr int kMostNoticeLines = 8;
 
-/// What the machine itself has to say to people, such as that it is being updated: a file that
+/// A message of the machine itself to people, such as that it is being updated: a file that
 /// another program writes, shown over the painting for as long as it says something. Any thread.
 class MachineNotice {
  public:
