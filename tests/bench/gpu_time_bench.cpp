@@ -1,0 +1,195 @@
+// The GPU's time for a frame, by timer queries, of whole styles on the workbench; beside it the
+// processor's time, and how long a frame takes where the next is not begun before it is done. Where
+// the driver has no usable timer queries (docs/gpu.md, rule 13), each benchmark says so and ends.
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <ctime>
+#include <map>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "firmware_app/scene/workbench_scene.h"
+#include "hal/cameras/synthetic/synthetic_camera.h"
+#include "pipeline/engine/painter.h"
+#include "pipeline/gpu/handle.h"
+#include "pipeline/scene/description/scene_file.h"
+#include "tests/bench/benchmarks.h"
+
+namespace {
+
+using namespace pleinair;         // NOLINT(google-build-using-namespace): a program, not a header
+using namespace pleinair::bench;  // NOLINT(google-build-using-namespace)
+
+constexpr std::uint64_t kFrames = 8;
+
+/// The workbench's frames of one size, which take the processor long at 4K: made once.
+const std::vector<hal::CapturedFrame>& workbench(hal::FrameSize size) {
+  static std::map<std::pair<int, int>, std::vector<hal::CapturedFrame>> made;
+  std::vector<hal::CapturedFrame>& frames = made[{size.width, size.height}];
+  if (!frames.empty()) return frames;
+  hal::SteppedClock clock;
+  hal::SyntheticCamera camera({.size = size, .frameCount = kFrames}, clock);
+  hal::orThrow(camera.start({}));
+  for (std::uint64_t i = 0; i < kFrames; ++i) {
+    hal::NextFrame next = camera.next(hal::TimePoint::max());
+    frames.push_back(std::get<hal::CapturedFrame>(std::move(next)));
+  }
+  camera.stop();
+  return frames;
+}
+
+scene::Scene gearboxOf(hal::FrameSize size) {
+  hal::SteppedClock clock;
+  const hal::SyntheticCamera camera({.size = size, .frameCount = 1}, clock);
+  return scene::parseScene(app::workbenchScene(camera.truth(0), size), "bench", {});
+}
+
+struct Setting {
+  const char* style = "painterly";
+  bool hasModel = false;
+  /// Parameters of the style other than they are by themselves.
+  std::vector<std::pair<const char*, const char*>> values;
+};
+
+class Bench {
+ public:
+  Bench(hal::FrameSize size, const Setting& setting, gpu::PassTiming timing)
+      : frames_(workbench(size)),
+        painter_({.pictureSize = size,
+                  .scene = setting.hasModel ? gearboxOf(size) : scene::Scene{},
+                  .style = setting.style,
+                  .tracksTags = setting.hasModel,
+                  .passTiming = timing}),
+        parameters_(painter_.defaultParameters()) {
+    for (const auto& [name, value] : setting.values) {
+      parameters_.style = parameters_.style.with(name, value);
+    }
+    for (int i = 0; i < 8; ++i) paint();
+    waitForGpu();
+  }
+  /// Forth and back, so that no frame is far from the one before.
+  void paint() {
+    const std::uint64_t place = number_ % (2 * kFrames - 2);
+    hal::CapturedFrame frame = frames_[place < kFrames ? place : 2 * kFrames - 2 - place];
+    frame.sequence = number_;
+    frame.captureTime = timeOfFrame(number_);
+    ++number_;
+    hal::orThrow(painter_.paint(frame, parameters_));
+  }
+  void waitForGpu() { hal::orThrow(gpu::Fence::insert().wait()); }
+  const Painter& painter() const { return painter_; }
+  double strokes() const {
+    double alive = 0;
+    for (const marks::Anchor& each : hal::orThrow(painter_.anchors())) alive += each.isAlive();
+    return alive;
+  }
+
+ private:
+  const std::vector<hal::CapturedFrame>& frames_;
+  Painter painter_;
+  PaintParameters parameters_;
+  std::uint64_t number_ = 0;
+};
+
+double processMilliseconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+/// Each pass's mean, ms a frame, as a counter; the iteration's time is their sum.
+void byQueries(benchmark::State& state, const Setting& setting) {
+  Bench bench(sizeOf(state), setting, gpu::PassTiming::kQueries);
+  const gpu::ContextInfo& context = bench.painter().contextInfo();
+  if (!context.hasTimerQuery || context.isSoftware) {
+    state.SkipWithError((context.renderer + " has no usable timer queries").c_str());
+    return;
+  }
+  state.SetLabel(context.renderer);
+  using Milliseconds = std::chrono::duration<double, std::milli>;
+  std::map<std::string, double> totals;
+  const auto read = [&] {  // the passes' sum since it was last asked
+    double sum = 0.0;
+    for (const gpu::PassTime& each : bench.painter().passTimes()) {
+      const double total = Milliseconds(each.total).count();
+      sum += total - std::exchange(totals[each.pass], total);
+    }
+    return sum;
+  };
+  read();
+  const std::map<std::string, double> before = totals;
+  for ([[maybe_unused]] auto _ : state) {
+    bench.paint();
+    bench.waitForGpu();
+    state.SetIterationTime(1e-3 * read());  // of the frame before: queries are read at the next
+  }
+  for (const auto& [pass, total] : totals) {
+    const auto earlier = before.find(pass);
+    const double since = total - (earlier == before.end() ? 0.0 : earlier->second);
+    state.counters[pass] = since / static_cast<double>(state.iterations());
+  }
+  if (const double strokes = bench.strokes(); strokes > 0) state.counters["strokes"] = strokes;
+}
+
+/// Frames issued one after the other, none waited for but the last.
+void oneAfterTheOther(benchmark::State& state, const Setting& setting) {
+  constexpr int kRun = 30;
+  Bench bench(sizeOf(state), setting, gpu::PassTiming::kOff);
+  state.SetLabel(bench.painter().contextInfo().renderer);
+  double cpu = 0.0;
+  for ([[maybe_unused]] auto _ : state) {
+    const auto start = std::chrono::steady_clock::now();
+    const double cpuStart = processMilliseconds();
+    for (int i = 0; i < kRun; ++i) bench.paint();
+    bench.waitForGpu();
+    cpu += processMilliseconds() - cpuStart;
+    state.SetIterationTime(1e-3 * millisecondsSince(start) / kRun);
+  }
+  state.counters["cpu_ms"] = cpu / kRun / static_cast<double>(state.iterations());
+}
+
+void atSizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Args({640, 480})->Args({1920, 1080})->Args({3840, 2160});
+  benchmark->Unit(benchmark::kMillisecond)->UseManualTime();
+}
+
+void gpuTime(benchmark::internal::Benchmark* benchmark) {
+  atSizes(benchmark);
+  benchmark->Iterations(60);
+}
+
+void wallTime(benchmark::internal::Benchmark* benchmark) {
+  atSizes(benchmark);
+  benchmark->Iterations(3);
+}
+
+/// One layer, which is everywhere, of many strokes.
+Setting manyStrokes() {
+  return {.values = {{"layers", "1"}, {"stroke_size", "2"}, {"coverage", "8"}}};
+}
+
+BENCHMARK_CAPTURE(byQueries, painterly, Setting{})->Name("gpu/painterly")->Apply(gpuTime);
+BENCHMARK_CAPTURE(byQueries, models, Setting{.hasModel = true})
+    ->Name("gpu/painterly, gearbox")
+    ->Apply(gpuTime);
+BENCHMARK_CAPTURE(byQueries, many, manyStrokes())->Name("gpu/many strokes")->Apply(gpuTime);
+BENCHMARK_CAPTURE(byQueries, watercolor, Setting{.style = "watercolor"})
+    ->Name("gpu/watercolor")
+    ->Apply(gpuTime);
+BENCHMARK_CAPTURE(byQueries, hatching, Setting{.style = "hatching"})
+    ->Name("gpu/hatching")
+    ->Apply(gpuTime);
+BENCHMARK_CAPTURE(oneAfterTheOther, painterly, Setting{})->Name("wall/painterly")->Apply(wallTime);
+BENCHMARK_CAPTURE(oneAfterTheOther, models, Setting{.hasModel = true})
+    ->Name("wall/painterly, gearbox")
+    ->Apply(wallTime);
+BENCHMARK_CAPTURE(oneAfterTheOther, watercolor, Setting{.style = "watercolor"})
+    ->Name("wall/watercolor")
+    ->Apply(wallTime);
+
+}  // namespace
