@@ -51,6 +51,13 @@ Layout layoutOf(PangoContext* context, const std::string& text, const TextLayout
   return layout;
 }
 
+/// Whether the layout has a font: without any, some of Pango's lines are of any height.
+bool hasFont(PangoLayout* layout, int heightPixels, int fontPixels) {
+  constexpr int kMostEms = 16;  // of a line, in any script
+  return heightPixels > 0 &&
+         heightPixels <= kMostEms * fontPixels * pango_layout_get_line_count(layout);
+}
+
 }  // namespace
 
 Image textCoverage(const std::string& text, const TextLayout& how) {
@@ -60,6 +67,9 @@ Image textCoverage(const std::string& text, const TextLayout& how) {
   const Layout layout = layoutOf(context.get(), text, how);
   PangoRectangle extents;
   pango_layout_get_pixel_extents(layout.get(), nullptr, &extents);
+  if (!hasFont(layout.get(), extents.height, how.fontPixels)) {
+    return Image({.pixelFormat = PixelFormat::kGrey8, .size = {how.fontPixels, how.fontPixels}});
+  }
   const FrameSize size{std::clamp(extents.width, 1, kMaxSidePixels),
                        std::clamp(extents.height, 1, kMaxSidePixels)};
   const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, size.width, size.height));

@@ -19,7 +19,8 @@ struct TextLayout {
 
 /// Lines of UTF-8 (what is not is replaced) as coverage: a grey picture as large as the text needs,
 /// 0 without ink and 255 within it. '\t' goes to a second column. The fonts are the system's
-/// (Pango, fontconfig); where a family is missing, another stands in. Any one thread.
+/// (Pango, fontconfig); where a family is missing, another stands in; where there is no font at
+/// all, a place may be left empty. Any one thread.
 Image textCoverage(const std::string& text, const TextLayout& layout);
 
 }  // namespace pleinair::hal

@@ -33,18 +33,17 @@ uniform vec4 aVec4;
 uniform mat3 aMat3;
 uniform mat4 aMat4;
 void main() {
-  int i = 0;
-  values[i++] = float(anInt);
-  values[i++] = float(anUnsigned);
-  values[i++] = aFloat;
-  for (int k = 0; k < 2; ++k) values[i++] = float(anIvec2[k]);
-  for (int k = 0; k < 2; ++k) values[i++] = aVec2[k];
-  for (int k = 0; k < 3; ++k) values[i++] = aVec3[k];
-  for (int k = 0; k < 4; ++k) values[i++] = aVec4[k];
+  values[0] = float(anInt);
+  values[1] = float(anUnsigned);
+  values[2] = aFloat;
+  for (int k = 0; k < 2; ++k) values[3 + k] = float(anIvec2[k]);
+  for (int k = 0; k < 2; ++k) values[5 + k] = aVec2[k];
+  for (int k = 0; k < 3; ++k) values[7 + k] = aVec3[k];
+  for (int k = 0; k < 4; ++k) values[10 + k] = aVec4[k];
   vec3 v3 = aMat3 * vec3(1.0, 2.0, 3.0);
-  for (int k = 0; k < 3; ++k) values[i++] = v3[k];
+  for (int k = 0; k < 3; ++k) values[14 + k] = v3[k];
   vec4 v4 = aMat4 * vec4(1.0, 2.0, 3.0, 4.0);
-  for (int k = 0; k < 4; ++k) values[i++] = v4[k];
+  for (int k = 0; k < 4; ++k) values[17 + k] = v4[k];
 }
 )"},
     EmbeddedShader{"t/difference.frag", R"(

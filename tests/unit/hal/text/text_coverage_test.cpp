@@ -1,8 +1,12 @@
 #include "hal/text/text_coverage.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
 
 #include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.h"
 
 namespace pleinair::hal {
 namespace {
@@ -56,6 +60,27 @@ TEST(TextCoverage, SurvivesAnyText) {
   for (const std::string text : {"", "\n", "\t", "\xff\xfe", "·…°"}) {
     EXPECT_TRUE(isAcceptedSize(textCoverage(text, {.fontPixels = 15, .maxWidth = 100}).size()));
   }
+}
+
+/// In a process of its own, which finds fonts anew.
+TEST(TextCoverageDeathTest, IsNoLargerWhereThereIsNoFont) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const support::TemporaryFolder folder;
+  const auto none = folder.path() / "none.conf";
+  std::ofstream(none) << "<fontconfig></fontconfig>";
+  const auto sizeOfText = [&] {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): the process has one thread
+    setenv("FONTCONFIG_FILE", none.c_str(), 1);
+    int tooLarge = 0;
+    for (const char* font : {"Sans", "Sans Bold", "Serif", "Mono"}) {
+      for (int px = 4; px < 40; ++px) {
+        const Image text = textCoverage("4", {.font = font, .fontPixels = px, .maxWidth = 100});
+        tooLarge += text.size().height > 16 * px ? 1 : 0;
+      }
+    }
+    std::exit(tooLarge);  // NOLINT(concurrency-mt-unsafe)
+  };
+  EXPECT_EXIT(sizeOfText(), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
