@@ -3,8 +3,9 @@
 // Inputs:  stroke_support.glsl's; depth (ArFrame) if hasObjects, within objectBounds; segment: the
 //          length of a step, px of the full image; steps: of an arm, at most kArm; minSteps: of one
 //          that detail or colour ends; colourThreshold; cutOff: cosine of the sharpest turn;
-//          detailBand: the detail in which the layer is painted.
-// Outputs: functions. Precision: highp.
+//          detailBand: the detail in which the layer is painted; arms: 2, of kArm steps each, a
+//          uniform, so that compilers keep the loops; a group of kWalkers invocations.
+// Outputs: functions; ways: the directions of an invocation's arms. Precision: highp.
 #include "pipeline/marks/shaders/colour_difference.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
 #include "pipeline/marks/shaders/stroke_support.glsl"
@@ -18,6 +19,12 @@ uniform float minSteps;
 uniform float colourThreshold;
 uniform float cutOff;        // cosine
 uniform vec2 detailBand;  // range of detail in which the layer is painted
+uniform ivec2 arms;
+
+// In registers, both arms would leave none to the walk.
+const int kWalkers = 64;
+shared vec2 ways[kWalkers * 2 * kArm];
+int wayAt(int step) { return step * kWalkers + int(gl_LocalInvocationIndex); }
 
 float depthAt(vec2 px) { return texelFetch(depth, pixelAt(px), 0).r; }
 
@@ -61,7 +68,6 @@ float partOnPatch(vec2 from, vec2 to, Support on, inout float strayed) {
 const float kOwnWeight = 3.0;
 
 struct Arm {
-  vec2 directions[kArm];
   float length;
   vec3 colour;  // sum over its visible part
   float weight;
@@ -78,7 +84,8 @@ bool reachesLabels(vec2 px) {
 
 const float kBehind = 0.025;  // of the image's width: so far strokes go on behind models
 
-Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
+// `first`: the step of `ways` that the arm begins at.
+Arm walk(int first, vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
   bool mayLeave = clips && reachesLabels(from);
   // The camera image goes on behind a model: strokes do, too, and are clipped where it is drawn. They
   // do not go far: nothing is known of what is there.
@@ -92,7 +99,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
   float before = 0.0;
   vec2 at = from;
   float strayed = 0.0;
-  for (int i = 0; i < kArm; ++i) {
+  for (int i = 0; i < arms.y; ++i) {
     vec2 direction = directionAt(at + 0.5 * segment * heading, on);
     direction = vec2(hand.x * direction.x - hand.y * direction.y,
                      hand.y * direction.x + hand.x * direction.y);
@@ -102,7 +109,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
       goesOn = false;
       arm.length = min(arm.length, float(i));
     }
-    arm.directions[i] = direction;
+    ways[wayAt(first + i)] = direction;
     if (goesOn && mayLeave) {
       // An arm ends where another surface begins.
       float part = partOnPatch(at, at + segment * direction, on, strayed);
