@@ -203,6 +203,7 @@ void StrokeSet::State::layOut(const AnchorSet& anchors, const StrokeRule& rule) 
       .texture("mixtures", rule.mixtures != nullptr ? *rule.mixtures : anyColour)
       .set("isLimited", rule.mixtures != nullptr ? 1 : 0)
       .set("jitter", rule.jitter)
+      .set("points", 8)
       .dispatch(allSlots(), GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

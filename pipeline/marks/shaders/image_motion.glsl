@@ -132,10 +132,13 @@ vec4 turnOfPicture(vec2 px, bool backward) {
 
 // --- the three nearest features of the same layer (thesis §4.3.3)
 
+struct Neighbour {
+  vec2 at;  // previous; current in backward queries
+  vec2 shift;
+  float error;
+};
 struct Neighbours {
-  vec2 at[3];  // previous; current in backward queries
-  vec2 shift[3];
-  float error[3];
+  Neighbour of[3];
 };
 
 // Their numbers, each in 8 bits from kFeatureShift on. `away`: the distance of the nearest one;
@@ -161,15 +164,16 @@ uint nearestFeatures(vec2 px, float layer, bool backward, out float away) {
   return numbers.x | numbers.y | numbers.z;
 }
 
+Neighbour neighbourOf(uint numbers, int k, bool backward) {
+  uint i = numbers >> (kFeatureShift + 8u * uint(k)) & 255u;
+  vec4 places = features[i].places;
+  return Neighbour(backward ? places.zw : places.xy,
+                   (backward ? -1.0 : 1.0) * (places.zw - places.xy), features[i].about.x);
+}
+
 Neighbours neighboursOf(uint numbers, bool backward) {
   Neighbours near;
-  for (int k = 0; k < 3; ++k) {
-    uint i = numbers >> (kFeatureShift + 8u * uint(k)) & 255u;
-    vec4 places = features[i].places;
-    near.at[k] = backward ? places.zw : places.xy;
-    near.shift[k] = (backward ? -1.0 : 1.0) * (places.zw - places.xy);
-    near.error[k] = features[i].about.x;
-  }
+  for (int k = 0; k < 3; ++k) near.of[k] = neighbourOf(numbers, k, backward);
   return near;
 }
 
@@ -182,13 +186,13 @@ struct Similarity {
 };
 
 Similarity similarityOf(Neighbours near) {
-  vec2 middle = (near.at[0] + near.at[1] + near.at[2]) / 3.0;
-  vec2 shift = (near.shift[0] + near.shift[1] + near.shift[2]) / 3.0;
+  vec2 middle = (near.of[0].at + near.of[1].at + near.of[2].at) / 3.0;
+  vec2 shift = (near.of[0].shift + near.of[1].shift + near.of[2].shift) / 3.0;
   float spread = 0.0;
   vec2 turn = vec2(0.0);
   for (int k = 0; k < 3; ++k) {
-    vec2 a = near.at[k] - middle;
-    vec2 d = near.shift[k] - shift;
+    vec2 a = near.of[k].at - middle;
+    vec2 d = near.of[k].shift - shift;
     spread += dot(a, a);
     turn += vec2(dot(a, d), a.x * d.y - a.y * d.x);
   }
@@ -200,7 +204,7 @@ Similarity similarityOf(Neighbours near) {
 Moved bySimilarity(vec2 px, Neighbours near) {
   Similarity all = similarityOf(near);
   float variance = 0.0;
-  for (int k = 0; k < 3; ++k) variance += near.error[k] * near.error[k] / 3.0;
+  for (int k = 0; k < 3; ++k) variance += near.of[k].error * near.of[k].error / 3.0;
   vec2 arm = px - all.middle;
   float lever = all.spread > 0.0 ? dot(arm, arm) / all.spread : 0.0;
   vec2 turned = vec2(all.turn.x * arm.x - all.turn.y * arm.y, all.turn.y * arm.x + all.turn.x * arm.y);
@@ -218,13 +222,13 @@ struct InTriangle {
 
 InTriangle inTriangle(vec2 px, Neighbours near) {
   InTriangle here;
-  here.u = near.at[1] - near.at[0];
-  here.v = near.at[2] - near.at[0];
+  here.u = near.of[1].at - near.of[0].at;
+  here.v = near.of[2].at - near.of[0].at;
   here.area = here.u.x * here.v.y - here.u.y * here.v.x;
   float longest = max(max(dot(here.u, here.u), dot(here.v, here.v)), dot(here.u - here.v, here.u - here.v));
   const float kMinHeight = 0.25;  // of the longest side: flatter triangles amplify noise
   bool isFlat = abs(here.area) <= kMinHeight * longest;  // or all in one place
-  vec2 arm = px - near.at[0];
+  vec2 arm = px - near.of[0].at;
   float b = (arm.x * here.v.y - arm.y * here.v.x) / here.area;
   float c = (here.u.x * arm.y - here.u.y * arm.x) / here.area;
   here.weights = vec3(1.0 - b - c, b, c);
@@ -236,10 +240,10 @@ InTriangle inTriangle(vec2 px, Neighbours near) {
 Moved byTriangle(vec2 px, Neighbours near) {
   InTriangle here = inTriangle(px, near);
   if (!here.isClear) return bySimilarity(px, near);
-  vec2 du = near.shift[1] - near.shift[0];
-  vec2 dv = near.shift[2] - near.shift[0];
-  vec2 shift = near.shift[0] + here.weights.y * du + here.weights.z * dv;
-  vec3 errors = here.weights * vec3(near.error[0], near.error[1], near.error[2]);
+  vec2 du = near.of[1].shift - near.of[0].shift;
+  vec2 dv = near.of[2].shift - near.of[0].shift;
+  vec2 shift = near.of[0].shift + here.weights.y * du + here.weights.z * dv;
+  vec3 errors = here.weights * vec3(near.of[0].error, near.of[1].error, near.of[2].error);
   return Moved(shift, length(errors), kSourceFeatures);
 }
 
@@ -250,8 +254,8 @@ vec4 turnOfFeatures(vec2 px, uint numbers, bool backward) {
     vec2 turn = similarityOf(near).turn;
     return vec4(1.0 + turn.x, turn.y, -turn.y, 1.0 + turn.x);
   }
-  vec2 du = near.shift[1] - near.shift[0];
-  vec2 dv = near.shift[2] - near.shift[0];
+  vec2 du = near.of[1].shift - near.of[0].shift;
+  vec2 dv = near.of[2].shift - near.of[0].shift;
   return kNoTurn + vec4(here.v.y * du - here.u.y * dv, here.u.x * dv - here.v.x * du) / here.area;
 }
 
@@ -330,18 +334,20 @@ Moved bestOfImage(vec2 px, float layer, bool backward, Moved flowed, float restE
   uint numbers = nearestFeatures(px, layer, backward, away);
   Moved whole = byPicture(px, backward);
   if (away >= 0.0) {
-    Neighbours near = neighboursOf(numbers, backward);
     float share = clamp(away / 64.0, 0.1, 1.0);
-    vec2 mean = (near.shift[0] + near.shift[1] + near.shift[2]) / 3.0;
     bool hasPicture = known.z != 0.0;
     mat3 h = pictureHomography(backward);
-    vec2 expected[3];
+    // One after the other: loops whose bound is no constant.
+    int count = min(int(known.y), 3);
+    vec2 mean = vec2(0.0);
+    for (int k = 0; k < count; ++k) mean += neighbourOf(numbers, k, backward).shift;
+    mean /= 3.0;
     vec2 apart = vec2(0.0);
     float noise = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      expected[k] = hasPicture ? homographyShift(h, near.at[k]) : mean;
-      apart += (near.shift[k] - expected[k]) / 3.0;
-      noise += near.error[k] * near.error[k] / 9.0;
+    for (int k = 0; k < count; ++k) {
+      Neighbour near = neighbourOf(numbers, k, backward);
+      apart += (near.shift - (hasPicture ? homographyShift(h, near.at) : mean)) / 3.0;
+      noise += near.error * near.error / 9.0;
     }
     vec2 parallax = vec2(0.0);
     float variance = nodes.y;
@@ -356,10 +362,12 @@ Moved bestOfImage(vec2 px, float layer, bool backward, Moved flowed, float restE
     // The neighbours' residual against the homography, or among themselves, may continue between
     // them and here.
     float off = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      off = max(off, distance(near.shift[k], expected[k] + parallax) - 2.0 * near.error[k]);
+    for (int k = 0; k < count; ++k) {
+      Neighbour near = neighbourOf(numbers, k, backward);
+      vec2 expected = hasPicture ? homographyShift(h, near.at) : mean;
+      off = max(off, distance(near.shift, expected + parallax) - 2.0 * near.error);
     }
-    Moved triangle = byTriangle(px, near);
+    Moved triangle = byTriangle(px, neighboursOf(numbers, backward));
     triangle.source |= numbers;
     triangle.error = length(vec2(triangle.error, 0.5 * share * off));
     triangle.error = length(vec2(triangle.error, contradicted(triangle, flowed.displacement, flowed.error)));

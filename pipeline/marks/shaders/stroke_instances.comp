@@ -26,8 +26,8 @@ uniform float opacity;
 uniform float leaveLight;
 uniform bool isLimited;
 uniform vec3 jitter;
+uniform int points;  // 8; a uniform, so that compilers keep the loop over them
 
-const int kPoints = 8;
 const float kGreyHue = 0.4;
 const float kSpeck = 0.5;
 
@@ -56,9 +56,9 @@ void main() {
   vec2 lengths = strokes[slot].lengths * grown * (0.875 + 0.25 * randomOf(seed, 0x3u));
   float wide = width * girthOf(strokes[slot].state) * (1.0 + widthSpread * 2.0 * randomOf(seed, 0x11u)) * mix(0.6, 1.0, strokes[slot].seen);
   lengths = max(lengths, vec2(0.3 * wide / segment));  // a dab, not a speck
-  for (int i = 0; i < kPoints; ++i) {
-    float s = mix(-lengths.y, lengths.x, float(i) / float(kPoints - 1));
-    instances[rank].points[i] = px + segment * along(slot, s);
+  for (int i = points; i > 0; --i) {
+    float s = mix(-lengths.y, lengths.x, float(i - 1) / float(points - 1));
+    instances[rank].points[i - 1] = px + segment * along(slot, s);
   }
   vec3 colour = strokes[slot].colour;
   float luma = lumaOf(colour);

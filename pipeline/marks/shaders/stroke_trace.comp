@@ -261,16 +261,24 @@ void main() {
     vec2 was = jacobian.xy * strokes[slot].ways[0].x + jacobian.zw * strokes[slot].ways[0].y;
     if (dot(was, heading) < 0.0) heading = -heading;
   }
-  vec4 sum = kOwnWeight * vec4(own, 1.0);
-  vec2 lengths = vec2(0.0);
+  walks[gl_LocalInvocationIndex] = Walk(own, seen, heading, hand);
+  memoryBarrierShared();  // or compilers keep what they have just stored
+  memoryBarrierBuffer();
   for (int side = 0; side < arms.x; ++side) {
-    Arm arm = walk(side * kArm, px, side == 0 ? heading : -heading, hand, own, on);
-    if (side == 0 || bothWays) {
-      lengths = side == 0 ? vec2(arm.length, 0.0) : vec2(lengths.x, arm.length);
-      sum += vec4(arm.colour, arm.weight);
-    }
+    walk(side, px, on);
   }
-  vec3 colour = sum.rgb / sum.a;
+  memoryBarrierShared();
+  memoryBarrierBuffer();
+  px = anchors[slot].px;
+  seen = walks[gl_LocalInvocationIndex].detail;
+  heading = walks[gl_LocalInvocationIndex].heading;
+  own = walks[gl_LocalInvocationIndex].colour;
+  Arm ahead = walked[gl_LocalInvocationIndex];
+  Arm behind = walked[kWalkers + int(gl_LocalInvocationIndex)];
+  if (!bothWays) behind = Arm(vec3(0.0), 0.0, 0.0);
+  vec2 lengths = vec2(ahead.length, behind.length);
+  vec3 colour = (kOwnWeight * own + ahead.colour + behind.colour) /
+                (kOwnWeight + ahead.weight + behind.weight);
 
   // Before a standing camera, nothing but its content changes a stroke of the background.
   bool isResting = isStanding && !isNew && !isOnMover && !isModel;

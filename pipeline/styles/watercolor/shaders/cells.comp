@@ -90,5 +90,7 @@ void main() {
     seeds[slot].restless = seed.restless;
     seeds[slot].state = seed.state;
   }
-  for (int i = 0; i < kSumWords; ++i) sums[base + i] = 0u;
+  // Word by word: docs/gpu.md, rules 19 and 22.
+  int words = count > 0u ? kSumWords : 0;
+  for (int i = 0; i < words; ++i) sums[base + i] = 0u;
 }

@@ -60,8 +60,10 @@ void main() {
                  min(count / kWholeCell, 1.0));
     second = vec4(vec3(uvec3(moments[base + 4], moments[base + 5], moments[base + 6])) / (8.0 * count),
                   float(moments[base + 7]) * 16.0 / count);
-    for (int i = 0; i < kMomentWords; ++i) moments[base + i] = 0u;
   }
+  // Word by word: docs/gpu.md, rules 19 and 22.
+  int words = pixels > 0u ? kMomentWords : 0;
+  for (int i = 0; i < words; ++i) moments[base + i] = 0u;
   if ((seeds[slot].state & kLiving) != 0u) average(first, second, slot);
   now[2 * slot].xy = first.xy;
   now[2 * slot].zw = first.zw;
