@@ -16,6 +16,7 @@ namespace {
 
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr std::size_t kStrokeBytes = 96;  // shaders/stroke.glsl
+constexpr glm::ivec2 kArms{2, 4};         // of a stroke; segments of each
 // The bits of labels in borders (shaders/stroke_label.glsl) and in forms (surface_form.glsl).
 constexpr unsigned kBorderLabels = 8191;
 constexpr unsigned kFormLabels = 4095;
@@ -97,6 +98,7 @@ void StrokeSet::State::carryWithObjects(const scene::ArFrame& frame, const Ancho
       .texture("ids", *frame.ids)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .set("segment", rule.segmentPx)
+      .set("arms", kArms)
       .set("slots", slots)
       .dispatch(allSlots(), GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -156,7 +158,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("modelDetail", rule.modelDetail)
       .set("detailSpread", rule.detailSpread)
       .set("slack", rule.slack)
-      .set("arms", 2)
+      .set("arms", kArms)
       .set("bothWays", rule.bothWays ? 1 : 0)
       .set("wander", rule.wanderRad)
       .set("past", glm::vec4(stays(rule.shapeMemory), stays(rule.colourMemory),
@@ -201,6 +203,7 @@ void StrokeSet::State::layOut(const AnchorSet& anchors, const StrokeRule& rule) 
       .texture("mixtures", rule.mixtures != nullptr ? *rule.mixtures : anyColour)
       .set("isLimited", rule.mixtures != nullptr ? 1 : 0)
       .set("jitter", rule.jitter)
+      .set("points", 8)
       .dispatch(allSlots(), GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

@@ -73,7 +73,7 @@ Moved measuredAt(vec2 px, float object, bool isOnMover, bool isBesideMover, Move
   bool hasOwn = isOnMover && findMoverMotion(px + flowed.displacement, own);
   if (isOnMover && !hasOwn && isFlowKnown) return flowed;
   bool isResting = !isOnMover && restsWithCamera && object == 0.0;
-  if (isResting) return Moved(vec2(0.0), kNoTurn, known.w, kSourcePicture);
+  if (isResting) return Moved(vec2(0.0), known.w, kSourcePicture | kStraight);
 
   bool isPlain = isOnMover ? !hasOwn : !isBesideMover;  // like every place of the image
   Moved image = isPlain ? bestOfImage(px, object, false, flowed, restError) : byPicture(px, false);
@@ -81,7 +81,7 @@ Moved measuredAt(vec2 px, float object, bool isOnMover, bool isBesideMover, Move
     const float kError = 1.0;  // px
     if (!restsWithCamera) own += image.displacement;
     if (isFlowKnown) own += seenPart(flowed.displacement - own, px + own);
-    return Moved(own, isFlowKnown ? flowed.jacobian : kNoTurn, kError, kSourceFlow);
+    return Moved(own, kError, isFlowKnown ? kSourceFlow : kSourceFlow | kStraight);
   }
   if (object != 0.0) {
     if (isPlain) image.error = max(image.error, kMinError);
@@ -181,10 +181,12 @@ void main() {
   float restError = stillError(px);
   Moved moved = measuredAt(px, float(thing), isOnMover, isBesideMover, flowed, restError);
   if (!isOnMover && onSurfaces && (state & kSourceBits) == kSourceSurface && isReal(object)) {
-    Moved surfaceMoved = Moved(anchors[slot].displacement, anchors[slot].jacobian,
-                               anchors[slot].error, kSourceSurface);
+    Moved surfaceMoved = Moved(anchors[slot].displacement, anchors[slot].error, kSourceSurface);
     moved = betterOnSurface(moved, surfaceMoved, isBesideMover, flowed, restError);
   }
+  if (moved.source != kSourceSurface) anchors[slot].jacobian = turnOf(moved, px, false);
+  anchors[slot].displacement = moved.displacement;
+  anchors[slot].error = moved.error;
   px += moved.displacement;
   bool isGone = any(lessThan(px, vec2(-margin))) || any(greaterThan(px, fullSize + margin));
   ivec2 pixel = pixelAt(px);
@@ -240,9 +242,6 @@ void main() {
   anchors[slot].surface = surface;
   anchors[slot].appearance = packedLooks(looks);
   anchors[slot].px = px;
-  anchors[slot].displacement = moved.displacement;
-  anchors[slot].jacobian = moved.jacobian;
-  anchors[slot].error = moved.error;
   uint covered = 0u;
   uint flags = (state & (kAlive | kDying)) | onSurface | (isHidden ? kHidden : 0u);
   if (isBehind) {
@@ -250,5 +249,5 @@ void main() {
     isGone = isGone || (state & kDying) != 0u || isForgotten;
   }
   flags |= (isBehind ? kCovered : 0u) | (isOnMover ? kMover : 0u);
-  anchors[slot].state = isGone ? 0u : flags | moved.source | (covered << kCoveredShift);
+  anchors[slot].state = isGone ? 0u : flags | (moved.source & kSourceBits) | (covered << kCoveredShift);
 }

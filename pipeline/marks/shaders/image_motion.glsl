@@ -3,7 +3,8 @@
 //          predicted error.
 // Inputs:  those that marks::MotionField binds: uniform blocks 1 to 3, flow and still;
 //          bodies.glsl's, of a camera with the full image's pixels.
-// Outputs: displacement, Jacobian, predicted error, source (anchor.glsl). All px of the full image.
+// Outputs: displacement, predicted error, source (anchor.glsl), and afterwards the Jacobian. All px of
+//          the full image.
 // Precision: highp. Displacements are sums of differences, so that a static image gives exactly 0.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/feature.glsl"
@@ -28,16 +29,18 @@ layout(std140, binding = 3) uniform Features { Feature features[kMaxFeatures]; }
 uniform sampler2D flow;  // RGBA32F, forward or backward like the query
 uniform sampler2D still;  // R32F
 
+// Without its Jacobian, which is found for the best source alone, by turnOf(): there are not enough
+// registers for those of all sources.
 struct Moved {
   vec2 displacement;
-  vec4 jacobian;
   float error;
-  uint source;
+  uint source;  // in kSourceBits; above, kStraight or the three features
 };
 
+const uint kStraight = 0x10u;  // moves without turning, whatever the source
 const vec4 kNoTurn = vec4(1.0, 0.0, 0.0, 1.0);
 
-Moved nothingKnown() { return Moved(vec2(0.0), kNoTurn, kUnknownError, kSourceUnknown); }
+Moved nothingKnown() { return Moved(vec2(0.0), kUnknownError, kSourceUnknown); }
 
 // --- planes of the scene
 
@@ -58,23 +61,38 @@ vec2 planeShift(Body plane, vec2 at, bool backward) {
                   : projected(current) - projected(previous);
 }
 
-Moved byPlanes(vec2 px, bool backward) {
+// The nearest plane at px. `depth`: of the point there; 0: there is none.
+int planeAt(vec2 px, bool backward, out float depth) {
   int count = int(known.x);
-  float nearest = 0.0;
   int which = 0;
+  depth = 0.0;
   for (int i = 0; i < count; ++i) {
     if (planes[i].turnsAbout.w == 0.0) continue;
-    float depth = planeHit(planes[i], px, backward).z;
-    if (depth == 0.0 || (nearest > 0.0 && depth >= nearest)) continue;
-    nearest = depth;
+    float there = planeHit(planes[i], px, backward).z;
+    if (there == 0.0 || (depth > 0.0 && there >= depth)) continue;
+    depth = there;
     which = i;
   }
-  if (nearest == 0.0) return nothingKnown();
+  return which;
+}
+
+Moved byPlanes(vec2 px, bool backward) {
+  float depth;
+  int which = planeAt(px, backward, depth);
+  if (depth == 0.0) return nothingKnown();
+  vec3 hit = planeHit(planes[which], px, backward);
+  vec2 shift = planeShift(planes[which], hit.xy, backward);
+  return Moved(shift, predictedError(planes[which], depth * rayThrough(px)), kSourcePlane);
+}
+
+vec4 turnOfPlane(vec2 px, bool backward) {
+  float depth;
+  int which = planeAt(px, backward, depth);
   // Here, and a pixel further in x and in y. Not unrolled, for its bound is no constant.
   vec2 shift = vec2(0.0);
   vec2 inX = vec2(0.0);
   vec4 jacobian = kNoTurn;
-  int samples = 1;
+  int samples = depth == 0.0 ? 0 : 3;
   for (int i = 0; i < samples; ++i) {
     vec3 hit = planeHit(planes[which], px + vec2(i & 1, i >> 1), backward);
     if (hit.z == 0.0) break;
@@ -82,10 +100,8 @@ Moved byPlanes(vec2 px, bool backward) {
     if (i == 0) shift = there;
     if (i == 1) inX = there - shift;
     if (i == 2) jacobian += vec4(inX, there - shift);
-    samples = 3;
   }
-  float error = predictedError(planes[which], nearest * rayThrough(px));
-  return Moved(shift, jacobian, error, kSourcePlane);
+  return jacobian;
 }
 
 // --- the image as a whole
@@ -103,95 +119,144 @@ mat3 pictureHomography(bool backward) {
 
 Moved byPicture(vec2 px, bool backward) {
   if (known.z == 0.0) return nothingKnown();
+  return Moved(homographyShift(pictureHomography(backward), px), known.w, kSourcePicture);
+}
+
+vec4 turnOfPicture(vec2 px, bool backward) {
   mat3 h = pictureHomography(backward);
-  vec2 shift = homographyShift(h, px);
   float w = dot(vec3(h[0][2], h[1][2], h[2][2]), vec3(px, 1.0));
-  vec2 image = px + shift;
-  vec4 jacobian = vec4(h[0][0] - image.x * h[0][2], h[0][1] - image.y * h[0][2],
-                       h[1][0] - image.x * h[1][2], h[1][1] - image.y * h[1][2]) / w;
-  return Moved(shift, jacobian, known.w, kSourcePicture);
+  vec2 image = px + homographyShift(h, px);
+  return vec4(h[0][0] - image.x * h[0][2], h[0][1] - image.y * h[0][2],
+              h[1][0] - image.x * h[1][2], h[1][1] - image.y * h[1][2]) / w;
 }
 
 // --- the three nearest features of the same layer (thesis §4.3.3)
 
+struct Neighbour {
+  vec2 at;  // previous; current in backward queries
+  vec2 shift;
+  float error;
+};
 struct Neighbours {
-  vec2 at[3];  // previous; current in backward queries
-  vec2 shift[3];
-  float error[3];
-  float away;  // distance of the nearest one
-  int count;
+  Neighbour of[3];
 };
 
-Neighbours nearestFeatures(vec2 px, float layer, bool backward) {
-  vec3 away = vec3(1.0e12);  // squared, nearest first
+// Their numbers, each in 8 bits from kFeatureShift on. `away`: the distance of the nearest one;
+// negative where there are fewer than three.
+const uint kFeatureShift = 8u;
+uint nearestFeatures(vec2 px, float layer, bool backward, out float away) {
+  vec3 squared = vec3(1.0e12);  // nearest first
   ivec3 which = ivec3(-1);
   int count = int(known.y);
   for (int i = 0; i < count; ++i) {
     vec2 apart = (backward ? features[i].places.zw : features[i].places.xy) - px;
     float d = features[i].about.y == layer ? dot(apart, apart) : 1.0e12;
-    bool first = d < away.x;
-    bool second = d < away.y;
-    bool third = d < away.z;
+    bool first = d < squared.x;
+    bool second = d < squared.y;
+    bool third = d < squared.z;
     which = ivec3(first ? i : which.x, first ? which.x : (second ? i : which.y),
                   second ? which.y : (third ? i : which.z));
-    away = vec3(min(d, away.x), first ? away.x : min(d, away.y), second ? away.y : min(d, away.z));
+    squared = vec3(min(d, squared.x), first ? squared.x : min(d, squared.y),
+                   second ? squared.y : min(d, squared.z));
   }
+  away = which.z >= 0 ? sqrt(squared.x) : -1.0;
+  uvec3 numbers = uvec3(max(which, 0)) << uvec3(kFeatureShift, kFeatureShift + 8u, kFeatureShift + 16u);
+  return numbers.x | numbers.y | numbers.z;
+}
+
+Neighbour neighbourOf(uint numbers, int k, bool backward) {
+  uint i = numbers >> (kFeatureShift + 8u * uint(k)) & 255u;
+  vec4 places = features[i].places;
+  return Neighbour(backward ? places.zw : places.xy,
+                   (backward ? -1.0 : 1.0) * (places.zw - places.xy), features[i].about.x);
+}
+
+Neighbours neighboursOf(uint numbers, bool backward) {
   Neighbours near;
-  near.count = int(which.x >= 0) + int(which.y >= 0) + int(which.z >= 0);
-  near.away = sqrt(away.x);
-  for (int k = 0; k < 3; ++k) {
-    int i = max(which[k], 0);
-    vec4 places = features[i].places;
-    near.at[k] = backward ? places.zw : places.xy;
-    near.shift[k] = (backward ? -1.0 : 1.0) * (places.zw - places.xy);
-    near.error[k] = features[i].about.x;
-  }
+  for (int k = 0; k < 3; ++k) near.of[k] = neighbourOf(numbers, k, backward);
   return near;
 }
 
 // The best rotation, zoom and shift for all three, used where they form no triangle.
-Moved bySimilarity(vec2 px, Neighbours near) {
-  vec2 middle = (near.at[0] + near.at[1] + near.at[2]) / 3.0;
-  vec2 shift = (near.shift[0] + near.shift[1] + near.shift[2]) / 3.0;
+struct Similarity {
+  vec2 middle;
+  vec2 shift;
+  vec2 turn;  // minus one
+  float spread;  // 0: too little for a rotation
+};
+
+Similarity similarityOf(Neighbours near) {
+  vec2 middle = (near.of[0].at + near.of[1].at + near.of[2].at) / 3.0;
+  vec2 shift = (near.of[0].shift + near.of[1].shift + near.of[2].shift) / 3.0;
   float spread = 0.0;
-  vec2 turn = vec2(0.0);  // minus one
-  float variance = 0.0;
+  vec2 turn = vec2(0.0);
   for (int k = 0; k < 3; ++k) {
-    vec2 a = near.at[k] - middle;
-    vec2 d = near.shift[k] - shift;
+    vec2 a = near.of[k].at - middle;
+    vec2 d = near.of[k].shift - shift;
     spread += dot(a, a);
     turn += vec2(dot(a, d), a.x * d.y - a.y * d.x);
-    variance += near.error[k] * near.error[k] / 3.0;
   }
   const float kMinSpread = 9.0;  // px²: closer features give no rotation
-  turn = spread > kMinSpread ? turn / spread : vec2(0.0);
-  vec2 arm = px - middle;
-  float lever = spread > kMinSpread ? dot(arm, arm) / spread : 0.0;
-  return Moved(shift + vec2(turn.x * arm.x - turn.y * arm.y, turn.y * arm.x + turn.x * arm.y),
-               vec4(1.0 + turn.x, turn.y, -turn.y, 1.0 + turn.x),
-               sqrt(variance * (1.0 / 3.0 + lever)), kSourceFeatures);
+  bool isSpread = spread > kMinSpread;
+  return Similarity(middle, shift, isSpread ? turn / spread : vec2(0.0), isSpread ? spread : 0.0);
+}
+
+Moved bySimilarity(vec2 px, Neighbours near) {
+  Similarity all = similarityOf(near);
+  float variance = 0.0;
+  for (int k = 0; k < 3; ++k) variance += near.of[k].error * near.of[k].error / 3.0;
+  vec2 arm = px - all.middle;
+  float lever = all.spread > 0.0 ? dot(arm, arm) / all.spread : 0.0;
+  vec2 turned = vec2(all.turn.x * arm.x - all.turn.y * arm.y, all.turn.y * arm.x + all.turn.x * arm.y);
+  return Moved(all.shift + turned, sqrt(variance * (1.0 / 3.0 + lever)), kSourceFeatures);
+}
+
+// A point in the triangle of three features.
+struct InTriangle {
+  vec2 u;  // two of its sides
+  vec2 v;
+  float area;
+  vec3 weights;  // barycentric
+  bool isClear;  // false: the triangle is flat, or far away
+};
+
+InTriangle inTriangle(vec2 px, Neighbours near) {
+  InTriangle here;
+  here.u = near.of[1].at - near.of[0].at;
+  here.v = near.of[2].at - near.of[0].at;
+  here.area = here.u.x * here.v.y - here.u.y * here.v.x;
+  float longest = max(max(dot(here.u, here.u), dot(here.v, here.v)), dot(here.u - here.v, here.u - here.v));
+  const float kMinHeight = 0.25;  // of the longest side: flatter triangles amplify noise
+  bool isFlat = abs(here.area) <= kMinHeight * longest;  // or all in one place
+  vec2 arm = px - near.of[0].at;
+  float b = (arm.x * here.v.y - arm.y * here.v.x) / here.area;
+  float c = (here.u.x * arm.y - here.u.y * arm.x) / here.area;
+  here.weights = vec3(1.0 - b - c, b, c);
+  here.isClear = !(isFlat || dot(here.weights, here.weights) > 3.0);
+  return here;
 }
 
 // The previous point's barycentric coordinates, applied to the current corners (eq. 13-19).
 Moved byTriangle(vec2 px, Neighbours near) {
-  vec2 u = near.at[1] - near.at[0];
-  vec2 v = near.at[2] - near.at[0];
-  float area = u.x * v.y - u.y * v.x;
-  float longest = max(max(dot(u, u), dot(v, v)), dot(u - v, u - v));
-  const float kMinHeight = 0.25;  // of the longest side: flatter triangles amplify noise
-  bool isFlat = abs(area) <= kMinHeight * longest;  // or all in one place
-  vec2 arm = px - near.at[0];
-  float b = (arm.x * v.y - arm.y * v.x) / area;
-  float c = (u.x * arm.y - u.y * arm.x) / area;
-  vec3 weights = vec3(1.0 - b - c, b, c);
-  // or far outside of the triangle
-  if (isFlat || dot(weights, weights) > 3.0) return bySimilarity(px, near);
-  vec2 du = near.shift[1] - near.shift[0];
-  vec2 dv = near.shift[2] - near.shift[0];
-  vec2 shift = near.shift[0] + b * du + c * dv;
-  vec4 jacobian = kNoTurn + vec4(v.y * du - u.y * dv, u.x * dv - v.x * du) / area;
-  vec3 errors = weights * vec3(near.error[0], near.error[1], near.error[2]);
-  return Moved(shift, jacobian, length(errors), kSourceFeatures);
+  InTriangle here = inTriangle(px, near);
+  if (!here.isClear) return bySimilarity(px, near);
+  vec2 du = near.of[1].shift - near.of[0].shift;
+  vec2 dv = near.of[2].shift - near.of[0].shift;
+  vec2 shift = near.of[0].shift + here.weights.y * du + here.weights.z * dv;
+  vec3 errors = here.weights * vec3(near.of[0].error, near.of[1].error, near.of[2].error);
+  return Moved(shift, length(errors), kSourceFeatures);
+}
+
+vec4 turnOfFeatures(vec2 px, uint numbers, bool backward) {
+  Neighbours near = neighboursOf(numbers, backward);
+  InTriangle here = inTriangle(px, near);
+  if (!here.isClear) {
+    vec2 turn = similarityOf(near).turn;
+    return vec4(1.0 + turn.x, turn.y, -turn.y, 1.0 + turn.x);
+  }
+  vec2 du = near.of[1].shift - near.of[0].shift;
+  vec2 dv = near.of[2].shift - near.of[0].shift;
+  return kNoTurn + vec4(here.v.y * du - here.u.y * dv, here.u.x * dv - here.v.x * du) / here.area;
 }
 
 // --- dense flow
@@ -213,15 +278,14 @@ vec4 flowAt(vec2 node) {
   return mix(above, below, vec4(part.yy, between.yy)) * vec4(fullByFrame.xy, fullByFrame.x, 1.0);
 }
 
-// Without a Jacobian.
-Moved byFlowHere(vec2 px) {
+Moved byFlow(vec2 px) {
   if (nodes.x == 0.0) return nothingKnown();
   vec4 here = flowAt(px * flowGrid.xy + flowGrid.zw);
-  return Moved(here.xy, kNoTurn, here.z, kSourceFlow);
+  return Moved(here.xy, here.z, kSourceFlow);
 }
 
-Moved byFlow(vec2 px) {
-  Moved moved = byFlowHere(px);
+vec4 turnOfFlow(vec2 px) {
+  vec4 jacobian = kNoTurn;
   vec2 node = px * flowGrid.xy + flowGrid.zw;
   vec2 before = vec2(0.0);
   // Before and behind, in x and in y. Not unrolled, for its bound is no constant.
@@ -231,11 +295,11 @@ Moved byFlow(vec2 px) {
     vec2 there = flowAt((i & 1) == 0 ? node - axis : node + axis).xy;
     // Central differences over two nodes: the flow is smooth, its noise is not.
     vec2 slope = (there - before) * 0.5;
-    if (i == 1) moved.jacobian.xy += slope * flowGrid.x;
-    if (i == 3) moved.jacobian.zw += slope * flowGrid.y;
+    if (i == 1) jacobian.xy += slope * flowGrid.x;
+    if (i == 3) jacobian.zw += slope * flowGrid.y;
     before = there;
   }
-  return moved;
+  return jacobian;
 }
 
 // --- static regions
@@ -263,23 +327,27 @@ Moved better(Moved a, Moved b) {
 // exceed the features' errors: the best estimate of both (a Kalman gain). `layer`: the real object
 // that px is on, or 0.
 Moved bestOfImage(vec2 px, float layer, bool backward, Moved flowed, float restError) {
-  Moved best = better(nothingKnown(), Moved(vec2(0.0), kNoTurn, restError, kSourceStill));
+  Moved best = better(nothingKnown(), Moved(vec2(0.0), restError, kSourceStill));
   best = better(best, flowed);
 
-  Neighbours near = nearestFeatures(px, layer, backward);
+  float away;
+  uint numbers = nearestFeatures(px, layer, backward, away);
   Moved whole = byPicture(px, backward);
-  if (near.count == 3) {
-    float share = clamp(near.away / 64.0, 0.1, 1.0);
-    vec2 mean = (near.shift[0] + near.shift[1] + near.shift[2]) / 3.0;
+  if (away >= 0.0) {
+    float share = clamp(away / 64.0, 0.1, 1.0);
     bool hasPicture = known.z != 0.0;
     mat3 h = pictureHomography(backward);
-    vec2 expected[3];
+    // One after the other: loops whose bound is no constant.
+    int count = min(int(known.y), 3);
+    vec2 mean = vec2(0.0);
+    for (int k = 0; k < count; ++k) mean += neighbourOf(numbers, k, backward).shift;
+    mean /= 3.0;
     vec2 apart = vec2(0.0);
     float noise = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      expected[k] = hasPicture ? homographyShift(h, near.at[k]) : mean;
-      apart += (near.shift[k] - expected[k]) / 3.0;
-      noise += near.error[k] * near.error[k] / 9.0;
+    for (int k = 0; k < count; ++k) {
+      Neighbour near = neighbourOf(numbers, k, backward);
+      apart += (near.shift - (hasPicture ? homographyShift(h, near.at) : mean)) / 3.0;
+      noise += near.error * near.error / 9.0;
     }
     vec2 parallax = vec2(0.0);
     float variance = nodes.y;
@@ -294,10 +362,13 @@ Moved bestOfImage(vec2 px, float layer, bool backward, Moved flowed, float restE
     // The neighbours' residual against the homography, or among themselves, may continue between
     // them and here.
     float off = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      off = max(off, distance(near.shift[k], expected[k] + parallax) - 2.0 * near.error[k]);
+    for (int k = 0; k < count; ++k) {
+      Neighbour near = neighbourOf(numbers, k, backward);
+      vec2 expected = hasPicture ? homographyShift(h, near.at) : mean;
+      off = max(off, distance(near.shift, expected + parallax) - 2.0 * near.error);
     }
-    Moved triangle = byTriangle(px, near);
+    Moved triangle = byTriangle(px, neighboursOf(numbers, backward));
+    triangle.source |= numbers;
     triangle.error = length(vec2(triangle.error, 0.5 * share * off));
     triangle.error = length(vec2(triangle.error, contradicted(triangle, flowed.displacement, flowed.error)));
     triangle.error = length(vec2(triangle.error, contradicted(triangle, vec2(0.0), restError)));
@@ -325,4 +396,16 @@ Moved imageMotionAt(vec2 px, float layer, bool backward) {
   if (layer == 0.0) return bestWithPlane(best, byPlanes(px, backward), flowed, restError);
   best.error = max(best.error, kMinError);
   return best;
+}
+
+// The Jacobian of a motion that has been found at px.
+vec4 turnOf(Moved moved, vec2 px, bool backward) {
+  if ((moved.source & kStraight) != 0u) return kNoTurn;
+  switch (moved.source & kSourceBits) {
+    case kSourcePlane: return turnOfPlane(px, backward);
+    case kSourcePicture: return turnOfPicture(px, backward);
+    case kSourceFeatures: return turnOfFeatures(px, moved.source, backward);
+    case kSourceFlow: return turnOfFlow(px);
+    default: return kNoTurn;
+  }
 }

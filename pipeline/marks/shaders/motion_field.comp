@@ -14,5 +14,5 @@ void main() {
   if (any(greaterThanEqual(texel, imageSize(field)))) return;
   Moved moved = imageMotionAt((vec2(texel) + 0.5) * fieldPixels, 0.0, true);
   // The error of an unknown motion stays far below the largest half float.
-  imageStore(field, texel, vec4(-moved.displacement, min(moved.error, 1.0e4), float(moved.source)));
+  imageStore(field, texel, vec4(-moved.displacement, min(moved.error, 1.0e4), float(moved.source & kSourceBits)));
 }

@@ -9,10 +9,16 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Points { ivec4 points[]; };
 layout(std430, binding = 1) buffer Links { uint links[]; };
 layout(std430, binding = 2) readonly buffer Starts { uint starts[]; };
-layout(std430, binding = 3) buffer Sorted { ivec4 sorted[]; };
+// volatile: docs/gpu.md, rule 22
+layout(std430, binding = 3) volatile buffer Sorted { ivec4 sorted[]; };
 uniform int slots;
 
 const uint kHeap = 48u;  // points in a bin, above which gatherAll() is used
+
+void store(uint place, ivec4 point) {
+  sorted[place].xy = point.xy;
+  sorted[place].zw = point.zw;
+}
 
 void insertAll(uint first, uint next) {
   for (uint end = first; next != 0u; ++end) {
@@ -20,10 +26,10 @@ void insertAll(uint first, uint next) {
     next = links[uint(2 * bins.x * bins.y) + next - 1u];
     uint place = end;
     while (place > first && sorted[place - 1u].w > point.w) {
-      sorted[place] = sorted[place - 1u];
+      store(place, sorted[place - 1u]);
       --place;
     }
-    sorted[place] = point;
+    store(place, point);
   }
 }
 
@@ -32,7 +38,7 @@ void insertAll(uint first, uint next) {
 void gatherAll(uint first, uint end, ivec2 bin) {
   for (int slot = 0; slot < slots && first < end; ++slot) {
     ivec4 point = points[slot];
-    if (point.w >= 0 && binOf(pointPlace(point)) == bin) sorted[first++] = point;
+    if (point.w >= 0 && binOf(pointPlace(point)) == bin) store(first++, point);
   }
 }
 

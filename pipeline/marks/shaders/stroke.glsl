@@ -7,8 +7,7 @@ const int kArm = 4;  // segments on each side of the anchor
 const uint kWanted = 0x80000000u;  // `exists` is to be 1; with hysteresis
 
 struct Stroke {
-  vec4 ahead[2];   // four directions
-  vec4 behind[2];
+  vec2 ways[2 * kArm];  // directions: of the arm ahead of the anchor, then of the one behind it
   vec2 lengths;  // visible length of each arm, in segments
   float exists;  // opacity, in [0, 1]
   uint state;  // the label of what it lies on (stroke_label.glsl), its girth, and the flag below

@@ -2,7 +2,8 @@
 //          each with the surface under it (thesis §5.4 carries a stroke's place only): where a
 //          limb bends, a stroke that turned as one would leave it.
 // Inputs:  anchors, slots of them; motion (ArFrame) if hasMotion; ids (ArFrame) and their
-//          pixelsOfFull; segment: px.
+//          pixelsOfFull; segment: px; arms: 2, of kArm directions each, a uniform, so that
+//          compilers keep the loops.
 // Outputs: strokes: their directions and girth. One invocation per anchor.
 // Precision: highp.
 #include "pipeline/marks/shaders/anchor.glsl"
@@ -17,6 +18,7 @@ uniform highp usampler2D ids;
 uniform vec2 pixelsOfFull;
 uniform float segment;
 uniform uint slots;
+uniform ivec2 arms;
 
 const float kMaxStretch = 1.25;  // in a frame: what moves otherwise is something else
 const float kMaxLength = 1.5;    // of a segment, and the inverse of the least
@@ -49,23 +51,23 @@ vec2 limited(vec2 direction, vec2 was) {
   return direction * clamp(1.0, inversesqrt(squared) / kMaxLength, inversesqrt(squared) * kMaxLength);
 }
 
-vec4[2] carriedArm(vec4 was[2], float visible, Anchor anchor, uint object) {
-  vec2 before[kArm] = vec2[kArm](was[0].xy, was[0].zw, was[1].xy, was[1].zw);
-  mat2 turn = mat2(anchor.jacobian.xy, anchor.jacobian.zw);
-  vec2 from = anchor.px - anchor.displacement;
-  vec2 moved = anchor.displacement;
-  bool isKnown = hasMotion && (anchor.state & kHidden) == 0u;  // else another part would be followed
-  for (int i = 0; i < kArm; ++i) {
-    vec2 to = from + segment * before[i];
+void carryArm(uint slot, int side, uint object) {
+  mat2 turn = mat2(anchors[slot].jacobian.xy, anchors[slot].jacobian.zw);
+  vec2 moved = anchors[slot].displacement;
+  vec2 from = anchors[slot].px - moved;
+  float visible = strokes[slot].lengths[side];
+  bool isKnown = hasMotion && (anchors[slot].state & kHidden) == 0u;  // else another part would be followed
+  for (int i = 0; i < arms.y; ++i) {
+    vec2 was = strokes[slot].ways[side * kArm + i];
+    vec2 to = from + segment * was;
     vec2 here = moved;
     isKnown = isKnown && float(i) < visible + 1.0 && follow(to, object, moved);
-    vec2 now = before[i] + (moved - here) / segment;
-    float stretch = length(now) / length(before[i]);
+    vec2 now = was + (moved - here) / segment;
+    float stretch = length(now) / length(was);
     isKnown = isKnown && stretch < kMaxStretch && stretch > 1.0 / kMaxStretch;
-    before[i] = limited(isKnown ? now : turn * before[i], before[i]);
+    strokes[slot].ways[side * kArm + i] = limited(isKnown ? now : turn * was, was);
     from = to;
   }
-  return vec4[2](vec4(before[0], before[1]), vec4(before[2], before[3]));
 }
 
 // The stretch of the surface across a direction.
@@ -82,9 +84,9 @@ void main() {
   uint state = anchors[slot].state;
   uint object = objectOf(anchors[slot].surface);
   if (!isAlive(state) || (state & kBorn) != 0u || !isVirtual(object)) return;
-  Stroke stroke = strokes[slot];
-  float girth = girthOf(stroke.state) * stretchAcross(stroke.ahead[0].xy, anchors[slot].jacobian);
-  strokes[slot].state = withGirth(stroke.state, clamp(girth, 1.0 / kMaxLength, kMaxLength));
-  strokes[slot].ahead = carriedArm(stroke.ahead, stroke.lengths.x, anchors[slot], object);
-  strokes[slot].behind = carriedArm(stroke.behind, stroke.lengths.y, anchors[slot], object);
+  float girth = girthOf(strokes[slot].state) *
+                stretchAcross(strokes[slot].ways[0], anchors[slot].jacobian);
+  strokes[slot].state =
+      withGirth(strokes[slot].state, clamp(girth, 1.0 / kMaxLength, kMaxLength));
+  for (int side = 0; side < arms.x; ++side) carryArm(slot, side, object);
 }

@@ -16,7 +16,8 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) readonly buffer Strokes { Stroke strokes[]; };
 layout(std430, binding = 2) readonly buffer Ranks { uint ranks[]; };
-layout(std430, binding = 3) writeonly buffer Instances { Instance instances[]; };
+// volatile: docs/gpu.md, rule 22
+layout(std430, binding = 3) volatile writeonly buffer Instances { Instance instances[]; };
 uniform uint slots;
 uniform float segment;
 uniform float width;
@@ -25,15 +26,19 @@ uniform float opacity;
 uniform float leaveLight;
 uniform bool isLimited;
 uniform vec3 jitter;
+uniform int points;  // 8; a uniform, so that compilers keep the loop over them
 
-const int kPoints = 8;
 const float kGreyHue = 0.4;
 const float kSpeck = 0.5;
 
-// The point `s` segments along an arm.
-vec2 along(vec4 first, vec4 second, float s) {
-  vec4 part = clamp(vec4(s, s - 1.0, s - 2.0, s - 3.0), 0.0, 1.0);
-  return first.xy * part.x + first.zw * part.y + second.xy * part.z + second.zw * part.w;
+// The point `s` segments along the stroke, from its anchor on.
+vec2 along(uint slot, float s) {
+  int first = s >= 0.0 ? 0 : kArm;
+  vec2 at = vec2(0.0);
+  for (int i = 0; i < kArm; ++i) {
+    at += strokes[slot].ways[first + i] * clamp(abs(s) - float(i), 0.0, 1.0);
+  }
+  return at;
 }
 
 float randomOf(uint seed, uint salt) { return unitOf(hashOf(seed ^ salt)) - 0.5; }
@@ -43,22 +48,19 @@ void main() {
   if (slot >= slots) return;
   uint rank = ranks[slot];
   if (rank == 0xFFFFFFFFu) return;
-  Stroke stroke = strokes[slot];
   uint seed = anchors[slot].seed;
   vec2 px = anchors[slot].px;
   // A stroke that fades in or out also grows or shrinks.
-  float grown = mix(0.35, 1.0, stroke.seen);
+  float grown = mix(0.35, 1.0, strokes[slot].seen);
   // Lengths vary randomly, but never beyond the traced end.
-  vec2 lengths = stroke.lengths * grown * (0.875 + 0.25 * randomOf(seed, 0x3u));
-  float wide = width * girthOf(stroke.state) * (1.0 + widthSpread * 2.0 * randomOf(seed, 0x11u)) * mix(0.6, 1.0, stroke.seen);
+  vec2 lengths = strokes[slot].lengths * grown * (0.875 + 0.25 * randomOf(seed, 0x3u));
+  float wide = width * girthOf(strokes[slot].state) * (1.0 + widthSpread * 2.0 * randomOf(seed, 0x11u)) * mix(0.6, 1.0, strokes[slot].seen);
   lengths = max(lengths, vec2(0.3 * wide / segment));  // a dab, not a speck
-  for (int i = 0; i < kPoints; ++i) {
-    float s = mix(-lengths.y, lengths.x, float(i) / float(kPoints - 1));
-    vec2 arm = s >= 0.0 ? along(stroke.ahead[0], stroke.ahead[1], s)
-                        : along(stroke.behind[0], stroke.behind[1], -s);
-    instances[rank].points[i] = px + segment * arm;
+  for (int i = points; i > 0; --i) {
+    float s = mix(-lengths.y, lengths.x, float(i - 1) / float(points - 1));
+    instances[rank].points[i - 1] = px + segment * along(slot, s);
   }
-  vec3 colour = stroke.colour;
+  vec3 colour = strokes[slot].colour;
   float luma = lumaOf(colour);
   vec3 hue = vec3(randomOf(seed, 0x21u), randomOf(seed, 0x22u), randomOf(seed, 0x23u));
   hue -= lumaOf(hue);
@@ -69,11 +71,12 @@ void main() {
   colour *= 1.0 + 2.0 * jitter.z * randomOf(seed, 0x25u);
   float light = smoothstep(0.2, 0.95, luma);
   // A stroke cut short on both sides is a speck with little support: paint it thinly.
-  float stands = mix(kSpeck, 1.0, smoothstep(0.8, 2.2, stroke.lengths.x + stroke.lengths.y));
+  float stands = mix(kSpeck, 1.0, smoothstep(0.8, 2.2, strokes[slot].lengths.x + strokes[slot].lengths.y));
   colour = clamp(colour, 0.0, 1.0);
   if (isLimited) colour = mixtureOf(colour);
-  instances[rank].paint = vec4(colour, opacity * stands * (1.0 - leaveLight * light) * stroke.seen);
-  instances[rank].shape =
-      vec4(0.5 * wide, float(hashOf(seed ^ 0x31u) & 7u), float(labelOfStroke(stroke.state)),
-           ageOf(anchors[slot].ageAndRank));
+  instances[rank].paint.xyz = colour;
+  instances[rank].paint.w = opacity * stands * (1.0 - leaveLight * light) * strokes[slot].seen;
+  instances[rank].shape.xy = vec2(0.5 * wide, float(hashOf(seed ^ 0x31u) & 7u));
+  instances[rank].shape.zw =
+      vec2(float(labelOfStroke(strokes[slot].state)), ageOf(anchors[slot].ageAndRank));
 }

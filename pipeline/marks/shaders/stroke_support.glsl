@@ -72,8 +72,9 @@ bool isOverJoint(uint from, uint to) {
 }
 
 // Whether another patch is within a texel of the reduced image, at a third of it, two or all.
-bool isMixedAt(vec2 px, uint label) {
-  for (int i = 0; i < 12; ++i) {
+bool isMixedAt(vec2 px, uint label, bool hasOthers) {
+  int taps = hasOthers ? 12 : 0;
+  for (int i = 0; i < taps; ++i) {
     float reach = paintTexel * float(1 + i / 4) / 3.0;
     float side = (i & 1) == 0 ? -reach : reach;
     vec2 arm = (i & 2) == 0 ? vec2(side, 0.0) : vec2(0.0, side);
@@ -85,7 +86,7 @@ bool isMixedAt(vec2 px, uint label) {
 Support supportOf(bool isModel, uint label, bool isOnMover, vec2 px) {
   Support on = Support(isModel, label, false, isOnMover, 0.0, kUpright);
   bool hasOthers = isModel || (hasSegments && !isOnMover && label != 0u);
-  on.isMixed = clips && hasOthers && isMixedAt(px, label);
+  on.isMixed = isMixedAt(px, label, clips && hasOthers);
   vec2 moved;
   if (!isOnMover || looseness <= 0.0 || !findMoverMotion(px, moved)) return on;
   on.looseness = looseness * smoothstep(loosePx.x, max(loosePx.y, loosePx.x + 1e-3), length(moved));
@@ -113,10 +114,11 @@ vec2 directionAt(vec2 px, Support on) {
   return vec2(-gradient.y, gradient.x);
 }
 
-// The colour of a patch or segment within a texel of the reduced image.
+// The colour of a patch or segment within a texel of the reduced image, where that mixes it.
 vec4 ownColour(vec2 px, Support on) {
   vec4 sum = vec4(0.0);
-  for (int i = 0; i < 9; ++i) {
+  int taps = on.isMixed ? 9 : 0;
+  for (int i = 0; i < taps; ++i) {
     vec2 at = px + 0.4 * paintTexel * (vec2(i % 3, i / 3) - 1.0);
     if (!mayCover(on.label, labelAt(at))) continue;
     sum += on.isModel ? textureLod(finePaint, at / fullSize, 0.0)
@@ -129,15 +131,14 @@ vec4 ownColour(vec2 px, Support on) {
 vec3 colourAt(vec2 px, Support on) {
   const float kOthers = 1e-3;  // weight of the other layer
   vec2 at = px / fullSize;
-  if (on.isModel) {
-    vec4 seen = on.isMixed ? ownColour(px, on) : vec4(0.0);
-    if (seen.a <= 0.0) seen = textureLod(modelPaint, at, 0.0);
-    return seen.rgb / max(seen.a, 1e-4);
+  vec4 seen = ownColour(px, on);
+  if (seen.a <= 0.0) {
+    seen = on.isModel ? textureLod(modelPaint, at, 0.0) : textureLod(paint, at, 0.0);
   }
-  vec4 ground = on.isMixed ? ownColour(px, on) : vec4(0.0);
-  if (ground.a <= 0.0) ground = textureLod(paint, at, 0.0);
-  vec4 mover = textureLod(moverPaint, at, 0.0);
-  vec4 seen = on.isOnMover ? mover + kOthers * ground : ground + kOthers * mover;
+  if (!on.isModel) {
+    vec4 mover = textureLod(moverPaint, at, 0.0);
+    seen = on.isOnMover ? mover + kOthers * seen : seen + kOthers * mover;
+  }
   return seen.rgb / max(seen.a, 1e-4);
 }
 

@@ -26,7 +26,6 @@ uniform bool anew;
 uniform uint slots;
 uniform float detailSpread;  // random spread of the band among anchors
 uniform float slack;  // hysteresis: the part by which the band is wider for existing strokes
-uniform int arms;       // 2; a uniform, so that compilers keep one copy of the walk
 uniform bool bothWays;  // false: only ahead, as in the thesis
 uniform float wander;  // rad: the random deviation of a stroke from the field
 uniform vec4 past;  // the past's shares: shape, colour, existence rising, existence falling
@@ -71,32 +70,36 @@ uint labelOfGround(vec2 px, uint before, bool isNew) {
   return now;
 }
 
-// An arm blended with its past. The stored directions are lines; the heading gives the first one
-// its sign, and each one gives the next its sign.
-vec2[kArm] heldArm(vec2 now[kArm], vec4 was[2], vec2 heading, vec4 jacobian, float stays, bool relaxes) {
-  vec2 before[kArm] = vec2[kArm](was[0].xy, was[0].zw, was[1].xy, was[1].zw);
-  vec2 held[kArm];
-  for (int i = 0; i < kArm; ++i) {
-    held[i] = heldDirection(now[i], before[i], jacobian, stays);
-    // The stretch of a surface is taken back with time, or strokes would grow with what comes nearer.
-    if (relaxes) held[i] *= mix(1.0, length(before[i]), past.x);
-    if (dot(held[i], heading) < 0.0) held[i] = -held[i];
-    heading = held[i];
-  }
-  return held;
+// The past's motion. Strokes on virtual objects have been carried by stroke_carry.comp.
+vec4 turnOf(uint slot, bool isCarried) {
+  return isCarried ? vec4(1.0, 0.0, 0.0, 1.0) : anchors[slot].jacobian;
 }
 
-vec2 turned(vec2 direction, vec4 jacobian) { return heldDirection(direction, direction, jacobian, 1.0); }
-
-// The stroke after its place has turned.
-Stroke turned(Stroke stroke, vec4 jacobian) {
-  if (jacobian == vec4(1.0, 0.0, 0.0, 1.0)) return stroke;
-  for (int i = 0; i < 2; ++i) {
-    stroke.ahead[i] = vec4(turned(stroke.ahead[i].xy, jacobian), turned(stroke.ahead[i].zw, jacobian));
-    stroke.behind[i] =
-        vec4(turned(stroke.behind[i].xy, jacobian), turned(stroke.behind[i].zw, jacobian));
+// Stores the walked directions, `blends`: each one blended with its past. The stored directions are
+// lines; the heading gives the first one its sign, and each one gives the next its sign.
+void storeWays(uint slot, vec2 heading, bool isCarried, float stays, bool blends) {
+  for (int i = 0; i < arms.x * arms.y; ++i) {
+    vec2 way = ways[wayAt(i)];
+    if (blends) {
+      if (i == kArm) heading = -strokes[slot].ways[0];
+      vec2 was = strokes[slot].ways[i];
+      way = heldDirection(way, was, turnOf(slot, isCarried), stays);
+      // The stretch of a surface is taken back with time, or strokes would grow with what comes nearer.
+      if (isCarried) way *= mix(1.0, length(was), past.x);
+      if (dot(way, heading) < 0.0) way = -way;
+      heading = way;
+    }
+    strokes[slot].ways[i] = way;
   }
-  return stroke;
+}
+
+// Turns the stroke as its place has turned.
+void turn(uint slot, vec4 jacobian) {
+  if (jacobian == vec4(1.0, 0.0, 0.0, 1.0)) return;
+  for (int i = 0; i < arms.x * arms.y; ++i) {
+    vec2 way = strokes[slot].ways[i];
+    strokes[slot].ways[i] = heldDirection(way, way, jacobian, 1.0);
+  }
 }
 
 const float kShrinking = 4.0;  // times as fast as shapes change
@@ -125,21 +128,20 @@ vec2 before(vec2 known, vec2 px, vec3 colour) {
 }
 
 // What is before a stroke of the background, or beside it.
-vec2 whatIsBefore(vec2 px, Stroke stroke) {
+vec2 whatIsBefore(uint slot, vec2 px) {
   vec2 found = vec2(0.0);
   vec2 at = px;
+  vec3 colour = strokes[slot].colour;
   // Four corners around its anchor, then both arms.
-  for (int i = 0; i < 4 + 2 * kArm; ++i) {
-    int step = i < 4 ? i : (i - 4) % kArm;
-    bool isAhead = i - 4 < kArm;
-    if (i < 4) {
-      at = px + segment * (2.0 * vec2(i & 1, i >> 1) - 1.0);
+  for (int i = -4; i < arms.x * arms.y; ++i) {
+    if (i < 0) {
+      at = px + segment * (2.0 * vec2(i & 1, i >> 1 & 1) - 1.0);
     } else {
-      vec4 two = isAhead ? stroke.ahead[step >> 1] : stroke.behind[step >> 1];
-      at = (step == 0 ? px : at) + segment * ((step & 1) == 0 ? two.xy : two.zw);
-      if (float(step) >= (isAhead ? stroke.lengths.x : stroke.lengths.y)) continue;
+      int step = i % kArm;
+      at = (step == 0 ? px : at) + segment * strokes[slot].ways[i];
+      if (float(step) >= strokes[slot].lengths[i / kArm]) continue;
     }
-    found = before(found, at, stroke.colour);
+    found = before(found, at, colour);
   }
   return found;
 }
@@ -165,98 +167,41 @@ bool isAmong(float share, float part, bool was) {
   return share >= 1.0 || part < share + 12.0 * max(share - kMost, 0.0);
 }
 
-void main() {
-  uint slot = gl_GlobalInvocationID.x;
-  if (slot >= slots) return;
-  uint state = anchors[slot].state;
-  if (!isAlive(state)) {
-    strokes[slot].seen = 0.0;
-    return;
-  }
-  vec2 px = anchors[slot].px;
-  // Strokes on virtual objects have been carried by stroke_carry.comp.
-  bool isCarried = hasObjects && isVirtual(objectOf(anchors[slot].surface));
-  vec4 jacobian = isCarried ? vec4(1.0, 0.0, 0.0, 1.0) : anchors[slot].jacobian;
-  uint seed = anchors[slot].seed;
-  bool isNew = anew || (state & kBorn) != 0u;
-  Stroke old = strokes[slot];
+// A stroke that something is before or beside stays, or fades out, unchanged, unless it is of a
+// colour that is not there. Whether it begins anew.
+bool beginsAnew(uint slot, uint state, vec2 px, bool isBeside, bool hasJoined, bool isLeft) {
   bool isOnMover = (state & kMover) != 0u;
   bool isBehind = (state & kCovered) != 0u;
-  // A mover has left it behind. It would be drawn over the mover as long as it kept its label.
-  bool isLeft = !isOnMover && labelOfStroke(old.state) == kMoverLabel;
-  vec2 found = isNew || isOnMover || isLeft ? vec2(0.0) : whatIsBefore(px, old);
-  bool isBeside = found.x > 0.1;
-  if (!isNew && ((state & kHidden) != 0u || isBehind || isBeside)) {
-    // What is before it has other colours and directions: the stroke stays, or fades out,
-    // unchanged, unless it is of a colour that is not there.
-    vec4 behind = textureLod(background, inLayers(background, px), 0.0);
-    bool isReal = !isVirtual(objectOf(anchors[slot].surface));
-    bool isStale = isReal && !isOnMover && behind.a >= 1.0 &&
-                   apart(old.colour, behind.rgb) > otherColour.y;
-    bool isUnder = isBehind && isPatch(labelAt(px));
-    isStale = isStale && !isUnder;
-    if (isReal && !isUnder && (isBehind || isBeside) && found.y > 0.0) {
-      // It would be seen there, since nothing covers it any more.
-      isStale = true;
-      old.exists = 0.0;  // also when that has become old
-    }
-    if (isUnder) old = turned(old, jacobian);
-    if (!isStale || isBehind) {
-      // Segments may have been labelled anew.
-      bool isFrozen = isReal && !isOnMover && isGround(labelOfStroke(old.state));
-      if (isFrozen) old.state = (old.state & ~kLabelMask) |
-                                labelOfGround(px, labelOfStroke(old.state), false);
-      old.seen = isStale || isLeft ? 0.0 : old.exists * anchors[slot].fade;
-      strokes[slot] = old;
-      return;
-    }
-    isNew = true;
+  vec4 behind = textureLod(background, inLayers(background, px), 0.0);
+  bool isReal = !isVirtual(objectOf(anchors[slot].surface));
+  bool isStale = isReal && !isOnMover && behind.a >= 1.0 &&
+                 apart(strokes[slot].colour, behind.rgb) > otherColour.y;
+  bool isUnder = isBehind && isPatch(labelAt(px));
+  isStale = isStale && !isUnder;
+  if (isReal && !isUnder && (isBehind || isBeside) && hasJoined) {
+    // It would be seen there, since nothing covers it any more.
+    isStale = true;
+    strokes[slot].exists = 0.0;  // also when that has become old
   }
-  bool isModel = hasObjects && isVirtual(objectOf(anchors[slot].surface));
-  uint label = isOnMover ? kMoverLabel : 0u;
-  if (!isModel && !isOnMover) label = labelOfGround(px, labelOfStroke(old.state), isNew);
-  if (isModel) {
-    // That of its birth: its triangle does not change.
-    label = isNew ? labelOfAnchor(px, anchors[slot].surface) : labelOfStroke(old.state);
+  if (isUnder) turn(slot, turnOf(slot, hasObjects && !isReal));
+  if (isStale && !isBehind) return true;
+  // Segments may have been labelled anew.
+  uint label = labelOfStroke(strokes[slot].state);
+  bool isFrozen = isReal && !isOnMover && isGround(label);
+  if (isFrozen) {
+    strokes[slot].state = (strokes[slot].state & ~kLabelMask) | labelOfGround(px, label, false);
   }
+  strokes[slot].seen = isStale || isLeft ? 0.0 : strokes[slot].exists * anchors[slot].fade;
+  return false;
+}
 
-  float hash = unitOf(hashOf(seed ^ 0x51u));
-  float stray = wander * (unitOf(hashOf(seed ^ 0x77u)) + unitOf(hashOf(seed ^ 0x78u)) - 1.0);
-  vec2 hand = vec2(cos(stray), sin(stray));
-  Support on = supportOf(isModel, label, isOnMover, px);
-  vec3 own = colourAt(px, on);
-  vec2 heading = directionAt(px, on);
-  heading = vec2(hand.x * heading.x - hand.y * heading.y, hand.y * heading.x + hand.x * heading.y);
-  if (!isNew) {
-    // Keeps the previous orientation.
-    vec2 was = jacobian.xy * old.ahead[0].x + jacobian.zw * old.ahead[0].y;
-    if (dot(was, heading) < 0.0) heading = -heading;
-  }
-  Arm ahead;
-  Arm behind;
-  for (int side = 0; side < arms; ++side) {
-    Arm arm = walk(px, side == 0 ? heading : -heading, hand, own, on);
-    if (side == 0) {
-      ahead = arm;
-    } else {
-      behind = arm;
-    }
-  }
-  if (!bothWays) {
-    behind.length = 0.0;
-    behind.colour = vec3(0.0);
-    behind.weight = 0.0;
-  }
-  vec3 colour = (kOwnWeight * own + ahead.colour + behind.colour) /
-                (kOwnWeight + ahead.weight + behind.weight);
-
+// Whether the layer is painted at a place. `seen`: the detail there.
+bool isWanted(uint slot, vec2 px, float seen, bool isResting, bool isModel, bool isNew) {
+  float hash = unitOf(hashOf(anchors[slot].seed ^ 0x51u));
   // A stroke is wanted where the detail lies in its band; an existing one stays a little longer.
-  float seen = detailAt(px, on);
   float focused = focusStrength * focusAt(px);
   float detail = (1.0 + kFocusDetail * focused) * seen + detailSpread * (hash - 0.5);
-  // Before a standing camera, nothing but its content changes a stroke of the background.
-  bool isResting = isStanding && !isNew && !isOnMover && !isModel;
-  bool was = !isNew && (old.state & kWanted) != 0u;
+  bool was = !isNew && (strokes[slot].state & kWanted) != 0u;
   float wider = was ? 1.0 - (isResting ? restSlack : slack) : isResting ? 1.0 + 0.5 * restSlack : 1.0;
   bool wanted = detail >= detailBand.x * wider && detail <= detailBand.y / wider;
   if (focusStrength > 0.0) {
@@ -269,42 +214,97 @@ void main() {
                         !isAmong(layerShare(fineness, layer.x + 1.0, layer.y), part, !was));
     wanted = wanted && isAmong(layerShare(fineness, layer.x, layer.y), part, was);
   }
-  float goal = wanted ? 1.0 : 0.0;
+  return wanted;
+}
 
+// What is read again, of anchors and strokes, is not kept in registers through the walk.
+void main() {
+  uint slot = gl_GlobalInvocationID.x;
+  if (slot >= slots) return;
+  uint state = anchors[slot].state;
+  if (!isAlive(state)) {
+    strokes[slot].seen = 0.0;
+    return;
+  }
+  vec2 px = anchors[slot].px;
+  bool isModel = hasObjects && isVirtual(objectOf(anchors[slot].surface));
+  bool isNew = anew || (state & kBorn) != 0u;
+  bool isOnMover = (state & kMover) != 0u;
+  bool isBehind = (state & kCovered) != 0u;
+  // A mover has left it behind. It would be drawn over the mover as long as it kept its label.
+  bool isLeft = !isOnMover && labelOfStroke(strokes[slot].state) == kMoverLabel;
+  vec2 found = isNew || isOnMover || isLeft ? vec2(0.0) : whatIsBefore(slot, px);
+  bool isBeside = found.x > 0.1;
+  if (!isNew && ((state & kHidden) != 0u || isBehind || isBeside)) {
+    // What is before it has other colours and directions.
+    if (!beginsAnew(slot, state, px, isBeside, found.y > 0.0, isLeft)) return;
+    isNew = true;
+  }
+  uint label = isOnMover ? kMoverLabel : 0u;
+  if (!isModel && !isOnMover) label = labelOfGround(px, labelOfStroke(strokes[slot].state), isNew);
+  if (isModel) {
+    // That of its birth: its triangle does not change.
+    label = isNew ? labelOfAnchor(px, anchors[slot].surface) : labelOfStroke(strokes[slot].state);
+  }
+
+  uint seed = anchors[slot].seed;
+  float stray = wander * (unitOf(hashOf(seed ^ 0x77u)) + unitOf(hashOf(seed ^ 0x78u)) - 1.0);
+  vec2 hand = vec2(cos(stray), sin(stray));
+  Support on = supportOf(isModel, label, isOnMover, px);
+  vec3 own = colourAt(px, on);
+  float seen = detailAt(px, on);
+  vec2 heading = directionAt(px, on);
+  heading = vec2(hand.x * heading.x - hand.y * heading.y, hand.y * heading.x + hand.x * heading.y);
+  if (!isNew) {
+    // Keeps the previous orientation.
+    vec4 jacobian = turnOf(slot, isModel);
+    vec2 was = jacobian.xy * strokes[slot].ways[0].x + jacobian.zw * strokes[slot].ways[0].y;
+    if (dot(was, heading) < 0.0) heading = -heading;
+  }
+  walks[gl_LocalInvocationIndex] = Walk(own, seen, heading, hand);
+  memoryBarrierShared();  // or compilers keep what they have just stored
+  memoryBarrierBuffer();
+  for (int side = 0; side < arms.x; ++side) {
+    walk(side, px, on);
+  }
+  memoryBarrierShared();
+  memoryBarrierBuffer();
+  px = anchors[slot].px;
+  seen = walks[gl_LocalInvocationIndex].detail;
+  heading = walks[gl_LocalInvocationIndex].heading;
+  own = walks[gl_LocalInvocationIndex].colour;
+  Arm ahead = walked[gl_LocalInvocationIndex];
+  Arm behind = walked[kWalkers + int(gl_LocalInvocationIndex)];
+  if (!bothWays) behind = Arm(vec3(0.0), 0.0, 0.0);
+  vec2 lengths = vec2(ahead.length, behind.length);
+  vec3 colour = (kOwnWeight * own + ahead.colour + behind.colour) /
+                (kOwnWeight + ahead.weight + behind.weight);
+
+  // Before a standing camera, nothing but its content changes a stroke of the background.
+  bool isResting = isStanding && !isNew && !isOnMover && !isModel;
+  bool wanted = isWanted(slot, px, seen, isResting, isModel, isNew);
+  float goal = wanted ? 1.0 : 0.0;
   // The past ends where the stroke stands on clearly other content.
   float restless = isResting ? 0.0 : smoothstep(flatDetail.x, flatDetail.y, seen);
   float stays = isOnMover ? past.x : pow(past.x, mix(1.0 / flatHold, 1.0, restless));
-  float changed = isNew ? 0.0 : smoothstep(otherColour.x, otherColour.y, apart(colour, old.colour));
-  Stroke made;
-  made.state = label | (wanted ? kWanted : 0u);
-  if (isCarried && !isNew) {
-    made.state = withGirth(made.state, mix(1.0, girthOf(old.state), past.x));
-  }
+  vec3 change = colour - strokes[slot].colour;
+  float changed = isNew ? 0.0 : smoothstep(otherColour.x, otherColour.y, weightedLength(change));
+  uint now = label | (wanted ? kWanted : 0u);
+  if (isModel && !isNew) now = withGirth(now, mix(1.0, girthOf(strokes[slot].state), past.x));
+  strokes[slot].state = now;
+  storeWays(slot, heading, isModel, stays, !isNew && changed < 0.5);
+  float exists = goal;  // the anchor fades it in
   if (!isNew) {
-    if (changed < 0.5) {
-      ahead.directions = heldArm(ahead.directions, old.ahead, heading, jacobian, stays, isCarried);
-      behind.directions =
-          heldArm(behind.directions, old.behind, -ahead.directions[0], jacobian, stays,
-                  isCarried);
-    }
-  }
-  made.ahead[0] = vec4(ahead.directions[0], ahead.directions[1]);
-  made.ahead[1] = vec4(ahead.directions[2], ahead.directions[3]);
-  made.behind[0] = vec4(behind.directions[0], behind.directions[1]);
-  made.behind[1] = vec4(behind.directions[2], behind.directions[3]);
-  if (isNew) {
-    made.lengths = vec2(ahead.length, behind.length);
-    made.exists = goal;  // the anchor fades it in
-    made.colour = colour;
-  } else {
-    made.lengths = vec2(heldLength(ahead.length, old.lengths.x, stays, isOnMover),
-                        heldLength(behind.length, old.lengths.y, stays, isOnMover));
-    made.exists = mix(goal, old.exists, (1.0 - changed) * (goal > old.exists ? past.z : past.w));
-    if (abs(made.exists - goal) < 0.02) made.exists = goal;
-    vec3 change = colour - old.colour;
+    float was = strokes[slot].exists;
+    exists = mix(goal, was, (1.0 - changed) * (goal > was ? past.z : past.w));
+    if (abs(exists - goal) < 0.02) exists = goal;
+    lengths = vec2(heldLength(lengths.x, strokes[slot].lengths.x, stays, isOnMover),
+                   heldLength(lengths.y, strokes[slot].lengths.y, stays, isOnMover));
     float held = (1.0 - past.y) * min(1.0, maxColour / max((1.0 - past.y) * length(change), 1e-6));
-    made.colour = old.colour + change * mix(held, 1.0, changed);
+    colour = strokes[slot].colour + change * mix(held, 1.0, changed);
   }
-  made.seen = made.exists * anchors[slot].fade;
-  strokes[slot] = made;
+  strokes[slot].lengths = lengths;
+  strokes[slot].exists = exists;
+  strokes[slot].colour = colour;
+  strokes[slot].seen = exists * anchors[slot].fade;
 }

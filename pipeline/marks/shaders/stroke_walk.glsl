@@ -3,8 +3,9 @@
 // Inputs:  stroke_support.glsl's; depth (ArFrame) if hasObjects, within objectBounds; segment: the
 //          length of a step, px of the full image; steps: of an arm, at most kArm; minSteps: of one
 //          that detail or colour ends; colourThreshold; cutOff: cosine of the sharpest turn;
-//          detailBand: the detail in which the layer is painted.
-// Outputs: functions. Precision: highp.
+//          detailBand: the detail in which the layer is painted; arms: 2, of kArm steps each, a
+//          uniform, so that compilers keep the loops; a group of kWalkers invocations.
+// Outputs: functions; walked: an invocation's arms, ways: their directions. Precision: highp.
 #include "pipeline/marks/shaders/colour_difference.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
 #include "pipeline/marks/shaders/stroke_support.glsl"
@@ -18,6 +19,7 @@ uniform float minSteps;
 uniform float colourThreshold;
 uniform float cutOff;        // cosine
 uniform vec2 detailBand;  // range of detail in which the layer is painted
+uniform ivec2 arms;
 
 float depthAt(vec2 px) { return texelFetch(depth, pixelAt(px), 0).r; }
 
@@ -61,11 +63,26 @@ float partOnPatch(vec2 from, vec2 to, Support on, inout float strayed) {
 const float kOwnWeight = 3.0;
 
 struct Arm {
-  vec2 directions[kArm];
-  float length;
   vec3 colour;  // sum over its visible part
   float weight;
+  float length;
 };
+
+// What a walk starts from: the colour and the detail at the anchor, the direction there, and by how
+// much the stroke deviates from the field.
+struct Walk {
+  vec3 colour;
+  float detail;
+  vec2 heading;
+  vec2 hand;
+};
+
+// In registers, these would leave none to the walk.
+const int kWalkers = 64;
+shared Walk walks[kWalkers];
+shared Arm walked[2 * kWalkers];
+shared vec2 ways[kWalkers * 2 * kArm];
+int wayAt(int step) { return step * kWalkers + int(gl_LocalInvocationIndex); }
 
 // Whether an arm may come to labels other than the background's 0.
 bool reachesLabels(vec2 px) {
@@ -78,22 +95,23 @@ bool reachesLabels(vec2 px) {
 
 const float kBehind = 0.025;  // of the image's width: so far strokes go on behind models
 
-Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
+// Walks an arm, ahead or behind, and stores it.
+void walk(int side, vec2 from, Support on) {
   bool mayLeave = clips && reachesLabels(from);
   // The camera image goes on behind a model: strokes do, too, and are clipped where it is drawn. They
   // do not go far: nothing is known of what is there.
   bool goesBehind = mayLeave && !on.isModel;
   float left = kBehind * fullSize.x;
-  Arm arm;
-  arm.length = steps;
-  arm.colour = vec3(0.0);
-  arm.weight = 0.0;
+  Arm arm = Arm(vec3(0.0), 0.0, steps);
   bool goesOn = true;
   float before = 0.0;
   vec2 at = from;
+  vec2 heading = walks[gl_LocalInvocationIndex].heading;
+  if (side != 0) heading = -heading;
   float strayed = 0.0;
-  for (int i = 0; i < kArm; ++i) {
+  for (int i = 0; i < arms.y; ++i) {
     vec2 direction = directionAt(at + 0.5 * segment * heading, on);
+    vec2 hand = walks[gl_LocalInvocationIndex].hand;
     direction = vec2(hand.x * direction.x - hand.y * direction.y,
                      hand.y * direction.x + hand.x * direction.y);
     float along = dot(direction, heading);
@@ -102,7 +120,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
       goesOn = false;
       arm.length = min(arm.length, float(i));
     }
-    arm.directions[i] = direction;
+    ways[wayAt(side * kArm + i)] = direction;
     if (goesOn && mayLeave) {
       // An arm ends where another surface begins.
       float part = partOnPatch(at, at + segment * direction, on, strayed);
@@ -119,6 +137,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
       heading = direction;
       continue;
     }
+    vec3 own = walks[gl_LocalInvocationIndex].colour;
     vec3 there = goesOn ? colourAt(at, on) : own;
     float difference = apart(there, own);
     if (goesOn && clips && (moverAt(at).r > 0.5) != on.isOnMover) {
@@ -145,5 +164,5 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
     before = difference;
     heading = direction;
   }
-  return arm;
+  walked[side * kWalkers + int(gl_LocalInvocationIndex)] = arm;
 }

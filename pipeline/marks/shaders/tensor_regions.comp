@@ -112,9 +112,9 @@ Source sourceOf(Surface surface, vec2 at) {
 // `displacement`: backward; `moved`: of the motion field.
 bool isSurer(vec2 displacement, float error, vec4 moved, vec2 at, bool isNearMover) {
   float apart = max(0.0, distance(displacement, -moved.xy) - 2.5 * error);
-  Moved surface = Moved(displacement, kNoTurn, error, kSourceSurface);
+  Moved surface = Moved(displacement, error, kSourceSurface);
   if (!isNearMover) {
-    Moved flowed = byFlowHere(at);
+    Moved flowed = byFlow(at);
     float ofFlow = contradicted(surface, flowed.displacement, flowed.error);
     float ofRest = contradicted(surface, vec2(0.0), stillError(at));
     surface.error = length(vec3(error, ofFlow, ofRest));

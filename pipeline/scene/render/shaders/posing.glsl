@@ -21,7 +21,8 @@ struct PosedVertex {
 };
 layout(std430, binding = 0) readonly buffer Rest { RestVertex rest[]; };
 layout(std430, binding = 1) readonly buffer Matrices { vec4 matrixRows[]; };
-layout(std430, binding = 2) writeonly buffer Posed { PosedVertex posed[]; };
+// volatile: docs/gpu.md, rule 22
+layout(std430, binding = 2) volatile writeonly buffer Posed { PosedVertex posed[]; };
 
 uniform uint firstRest;  // of this range, in rest
 uniform uint firstPosed;  // of this range, in posed

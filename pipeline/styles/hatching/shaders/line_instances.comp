@@ -14,7 +14,8 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) readonly buffer Lines { Line lines[]; };
 layout(std430, binding = 2) readonly buffer Ranks { uint ranks[]; };
-layout(std430, binding = 3) writeonly buffer Instances { Instance instances[]; };
+// volatile: docs/gpu.md, rule 22
+layout(std430, binding = 3) volatile writeonly buffer Instances { Instance instances[]; };
 #include "pipeline/styles/hatching/shaders/tone.glsl"
 uniform uint slots;
 uniform float segment;
@@ -60,7 +61,9 @@ void main() {
   }
   vec3 byRank = mix(vec3(0.9, 0.15, 0.1), vec3(0.1, 0.3, 0.95), rank);
   vec3 ink = mix(paint.rgb, textureLod(colours, from / fullSize, 0.0).rgb, colour);
-  instances[place].paint = vec4(mix(ink, byRank, rankColour), paint.a);
+  instances[place].paint.rgb = mix(ink, byRank, rankColour);
+  instances[place].paint.a = paint.a;
   float variant = float(hashOf(anchors[slot].seed ^ 0x31u) & 3u);
-  instances[place].shape = vec4(widest, variant, float(label), rank);
+  instances[place].shape.xy = vec2(widest, variant);
+  instances[place].shape.zw = vec2(float(label), rank);
 }

@@ -8,7 +8,7 @@
 layout(local_size_x = 128) in;
 layout(std430, binding = 0) readonly buffer Lines { Line lines[]; };
 layout(std430, binding = 1) writeonly buffer Ranks { uint ranks[]; };
-layout(std430, binding = 2) writeonly buffer Command { DrawCommand command; };
+layout(std430, binding = 2) volatile writeonly buffer Command { DrawCommand command; };
 uniform uint slots;
 
 const float kMinSeen = 0.01;

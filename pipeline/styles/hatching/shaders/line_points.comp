@@ -10,7 +10,8 @@
 #include "pipeline/styles/hatching/shaders/line_support.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
-layout(std430, binding = 1) writeonly buffer Points { ivec4 points[]; };
+// volatile: docs/gpu.md, rule 22
+layout(std430, binding = 1) volatile writeonly buffer Points { ivec4 points[]; };
 layout(std430, binding = 2) buffer Lines { Line lines[]; };
 uniform uint slots;
 uniform bool anew;
@@ -25,5 +26,7 @@ void main() {
   lines[slot].label = label;
   ivec4 point = pointAt(px, 0.0, int(slot));
   point.z = int(label | ((state & kBorn) != 0u ? kJustBorn : 0u));
-  points[slot] = isAlive(state) ? point : kNoPoint;
+  if (!isAlive(state)) point = kNoPoint;
+  points[slot].xy = point.xy;
+  points[slot].zw = point.zw;
 }

@@ -7,7 +7,7 @@
 layout(local_size_x = 128) in;
 layout(std430, binding = 0) readonly buffer Drawn { DrawCommand drawn; };
 layout(std430, binding = 1) buffer Plans { StripPlan plans[]; };
-layout(std430, binding = 2) writeonly buffer Command { DrawCommand command; };
+layout(std430, binding = 2) volatile writeonly buffer Command { DrawCommand command; };
 uniform uint even;
 
 shared uint before[128];

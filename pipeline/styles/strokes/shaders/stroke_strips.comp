@@ -19,7 +19,8 @@ struct Vertex {
 };
 layout(std430, binding = 1) readonly buffer Drawn { DrawCommand drawn; };
 layout(std430, binding = 2) readonly buffer Plans { StripPlan plans[]; };
-layout(std430, binding = 3) writeonly buffer Vertices { Vertex vertices[]; };
+// volatile: docs/gpu.md, rule 22
+layout(std430, binding = 3) volatile writeonly buffer Vertices { Vertex vertices[]; };
 uniform uint even;
 
 const float kVariants = 4.0;

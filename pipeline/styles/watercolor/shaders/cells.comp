@@ -13,7 +13,7 @@
 #include "pipeline/styles/watercolor/shaders/seed.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 layout(local_size_x = 64) in;
-layout(std430, binding = 0) buffer Seeds { Seed seeds[]; };
+layout(std430, binding = 0) volatile buffer Seeds { Seed seeds[]; };  // docs/gpu.md, rule 22
 layout(std430, binding = 1) buffer Sums { uint sums[]; };
 layout(std430, binding = 2) readonly buffer Points { ivec4 points[]; };
 layout(binding = 0, rgba16f) writeonly uniform highp image2D means;
@@ -86,7 +86,11 @@ void main() {
     float away = length(seed.offset + way);
     if (away > reach) way = (seed.offset + way) * (reach / away) - seed.offset;
     seed.offset += stepOf(seed, way, mix(drift, follow, pull));
-    seeds[slot] = seed;
+    seeds[slot].offset = seed.offset;
+    seeds[slot].restless = seed.restless;
+    seeds[slot].state = seed.state;
   }
-  for (int i = 0; i < kSumWords; ++i) sums[base + i] = 0u;
+  // Word by word: docs/gpu.md, rules 19 and 22.
+  int words = count > 0u ? kSumWords : 0;
+  for (int i = 0; i < words; ++i) sums[base + i] = 0u;
 }

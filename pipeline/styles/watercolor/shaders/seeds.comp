@@ -12,8 +12,9 @@
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
-layout(std430, binding = 1) buffer Seeds { Seed seeds[]; };
-layout(std430, binding = 2) writeonly buffer Points { ivec4 points[]; };
+// volatile: docs/gpu.md, rule 22
+layout(std430, binding = 1) volatile buffer Seeds { Seed seeds[]; };
+layout(std430, binding = 2) volatile writeonly buffer Points { ivec4 points[]; };
 uniform highp usampler2D tilingThen;
 uniform bool hasThen;
 uniform int slots;
@@ -45,6 +46,11 @@ Seed carried(Seed seed, Anchor anchor) {
   return seed;
 }
 
+void store(int slot, ivec4 point) {
+  points[slot].xy = point.xy;
+  points[slot].zw = point.zw;
+}
+
 void main() {
   int slot = int(gl_GlobalInvocationID.x);
   if (slot >= slots) return;
@@ -52,15 +58,18 @@ void main() {
   Seed seed = seeds[slot];
   if (!isAlive(anchor.state)) {
     seeds[slot].state = 0u;
-    points[slot] = kNoPoint;
+    store(slot, kNoPoint);
     return;
   }
   if (carries) {
     bool isNew = beginsAnew || (anchor.state & kBorn) != 0u || (seed.state & kLiving) == 0u;
     seed = isNew ? born(anchor) : carried(seed, anchor);
-    seeds[slot] = seed;
+    seeds[slot].offset = seed.offset;
+    seeds[slot].restless = seed.restless;
+    seeds[slot].state = seed.state;
+    seeds[slot].parent = seed.parent;
   }
   vec2 at = clamp((anchor.px + seed.offset) * pixelsOfFull, vec2(-kFarAway), vec2(kFarAway));
   float penalty = (1.0 - clamp(anchor.fade, 0.0, 1.0)) * growth;
-  points[slot] = pointAt(at, penalty, slot);
+  store(slot, pointAt(at, penalty, slot));
 }

@@ -7,7 +7,8 @@
 //          summed, too.
 // Outputs: tiling (R32UI, tiling_word.glsl), sums (cell_sums.glsl).
 // Precision: integers for distances and sums, so that order does not matter; of equally near seeds
-//          the first in `sorted` wins. Beyond 350 px, distances are rounded to 1/4 px.
+//          the first in `sorted` wins. Distances of more than about 100 px (fewer, where seeds are
+//          crowded) are rounded, so that they fit beside the number of a seed.
 #include "pipeline/gpu/shaders/colour.glsl"
 #include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/gpu/shaders/pixel_block.glsl"
@@ -33,9 +34,13 @@ const float kHalfDiagonal = 2.1213204;  // between the block's middle and its co
 
 ivec2 size;
 ivec2 corner;  // the block's first pixel
-uint nearest[kBlockPixels];  // the slot, plus one
+ivec2 low;     // the bins of the seeds that the block's pixels may be of
+ivec2 high;
+uint nearest[kBlockPixels];  // the number of its seed among those, plus one; later its name
 uint edges;   // a bit for each edge pixel
 uvec4 codes;  // strengths of edges, 8 bits for each pixel of a row, as codeOf() makes them
+
+const uint kNamed = 0x80000000u;
 
 vec2 middle() { return vec2(corner) + 2.0; }
 
@@ -67,34 +72,58 @@ float reachOf() {
   }
 }
 
-// Squared distances differ from |s|² − 2 p·s by |p|² alone, and that is linear in p.
+// Distances are kept with the numbers of their seeds below them, in one word a pixel: registers are
+// few. Squared ones differ from |s|² − 2 p·s by |p|² alone, and that is linear in p.
 void findNearest() {
   float reach = reachOf();
-  int coarser = reach < 350.0 ? 0 : 4;  // keeps squares within integers
-  int unit = 64 >> coarser;
-  ivec2 low = binOf(middle() - reach);
-  ivec2 high = binOf(middle() + reach);
-  int best[kBlockPixels];
-  for (int i = 0; i < kBlockPixels; ++i) {
-    best[i] = 0x7FFFFFFF;
-    nearest[i] = 1u;
-  }
+  low = binOf(middle() - reach);
+  high = binOf(middle() + reach);
+  uint count = 0u;
   for (int row = low.y; row <= high.y; ++row) {
     uvec2 range = rangeOf(low, high, row);
-    for (uint k = range.x; k < range.y; ++k) {
+    count += range.y - range.x;
+  }
+  int bits = max(findMSB(count) + 1, 4);  // of a number
+  // Of those that may be nearest, to the block's first pixel, and the largest to any of its pixels.
+  float far = kPointUnits * (reach + 5.3);
+  float farthest = kPointUnits * (reach + 10.6);
+  const int kBelow = 131072;  // more than |p|²
+  float most = log2(farthest * farthest + float(kBelow)) + float(bits);
+  int coarser = int(ceil(max(0.0, 0.5 * (most - 31.99))));
+  int unit = 64 >> coarser;
+  int limit = int(far * far * exp2(-2.0 * float(coarser)));
+  for (int i = 0; i < kBlockPixels; ++i) nearest[i] = 0xFFFFFFFFu;
+  uint number = 0u;
+  for (int row = low.y; row <= high.y; ++row) {
+    uvec2 range = rangeOf(low, high, row);
+    for (uint k = range.x; k < range.y; ++k, ++number) {
       ivec4 point = sorted[k];
       ivec2 s = (point.xy - corner * 64) >> coarser;
-      if (any(greaterThan(abs(s), ivec2(23000)))) continue;
-      uint name = uint(point.w) + 1u;
+      if (any(greaterThan(abs(s), ivec2(23000)))) continue;  // squares would not fit
       int start = s.x * s.x + s.y * s.y - unit * (s.x + s.y) + (point.z >> (2 * coarser));
-      s *= 2 * unit;
+      if (start > limit) continue;
+      uint first = uint(start + (kBelow >> (2 * coarser))) << bits | number;
+      uvec2 across = uvec2(2 * unit * s) << bits;
       for (int i = 0; i < kBlockPixels; ++i) {
-        int value = start - ((i & 3) * s.x + (i >> 2) * s.y);
-        nearest[i] = value < best[i] ? name : nearest[i];
-        best[i] = min(best[i], value);
+        nearest[i] = min(nearest[i], first - uint(i & 3) * across.x - uint(i >> 2) * across.y);
       }
     }
   }
+  uint numbers = (1u << bits) - 1u;
+  for (int i = 0; i < kBlockPixels; ++i) {
+    bool isInside = all(lessThan(corner + inBlock(i), size));
+    nearest[i] = isInside ? (nearest[i] & numbers) + 1u : 0u;
+  }
+}
+
+// The slot of a seed, plus one.
+uint nameOf(uint number) {
+  for (int row = low.y; row <= high.y; ++row) {
+    uvec2 range = rangeOf(low, high, row);
+    if (number < range.y - range.x) return uint(sorted[range.x + number].w) + 1u;
+    number -= range.y - range.x;
+  }
+  return 1u;  // there are no seeds
 }
 
 ivec2 inPicture(ivec2 at) { return clamp(at, ivec2(0), size - 1); }
@@ -195,31 +224,25 @@ void main() {
   size = textureSize(picture, 0);
   corner = ivec2(gl_GlobalInvocationID.xy) * kBlockSide;
   if (any(greaterThanEqual(corner, size))) return;
-  findNearest();
   findEdges();
+  findNearest();
 
-  for (int i = 0; i < kBlockPixels; ++i) {
-    ivec2 here = corner + inBlock(i);
-    uint code = codes[i >> 2] >> (8 * (i & 3)) & 0xFFu;
-    uint word = packTiling(nearest[i] - 1u, (edges >> i & 1u) != 0u, code);
-    imageStore(tiling, here, uvec4(word, 0u, 0u, 0u));  // no effect beyond the border
-    if (any(greaterThanEqual(here, size))) nearest[i] = 0u;
-  }
-
-  // Cell by cell, from the highest down, without branches.
-  for (uint above = 0xFFFFFFFFu;;) {
-    uint name = 0u;
-    for (int i = 0; i < kBlockPixels; ++i) name = max(name, nearest[i] < above ? nearest[i] : 0u);
-    if (name == 0u) break;
+  // Cell by cell, from the highest number down, without branches.
+  for (uint above = kNamed;;) {
+    uint number = 0u;
+    for (int i = 0; i < kBlockPixels; ++i) number = max(number, nearest[i] < above ? nearest[i] : 0u);
+    if (number == 0u) break;
+    uint name = nameOf(number - 1u);
     uint places = 0u;
     uint edgePlaces = 0u;
     uint own = 0u;  // a bit for each pixel
     for (int i = 0; i < kBlockPixels; ++i) {
       ivec2 here = inBlock(i);
-      uint place = nearest[i] == name ? uint(here.x | (here.y << 8) | (1 << 16)) : 0u;
+      uint place = nearest[i] == number ? uint(here.x | (here.y << 8) | (1 << 16)) : 0u;
       places += place;
       own |= place != 0u ? 1u << i : 0u;
       edgePlaces += (edges >> i & 1u) != 0u ? place : 0u;
+      nearest[i] = place != 0u ? kNamed | name : nearest[i];
     }
     uint index = (name - 1u) * uint(kSumWords);
     addPlaces(places, index + 7u, index + 8u, index + 3u);
@@ -233,6 +256,13 @@ void main() {
       }
       addColour(index, colour);
     }
-    above = name;
+    above = number;
+  }
+
+  for (int i = 0; i < kBlockPixels; ++i) {
+    uint code = codes[i >> 2] >> (8 * (i & 3)) & 0xFFu;
+    uint slot = (nearest[i] & ~kNamed) - 1u;
+    uint word = packTiling(slot & kSlotBits, (edges >> i & 1u) != 0u, code);
+    imageStore(tiling, corner + inBlock(i), uvec4(word, 0u, 0u, 0u));  // no effect beyond the border
   }
 }

@@ -17,7 +17,7 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer Moments { uint moments[]; };
 layout(std430, binding = 1) readonly buffer Seeds { Seed seeds[]; };
 layout(std430, binding = 2) readonly buffer Past { vec4 past[]; };
-layout(std430, binding = 3) writeonly buffer Now { vec4 now[]; };
+layout(std430, binding = 3) volatile writeonly buffer Now { vec4 now[]; };  // docs/gpu.md, rule 22
 layout(binding = 0, rgba8) writeonly uniform highp image2D darkWash;
 layout(binding = 1, rgba8) writeonly uniform highp image2D lightWash;
 uniform int slots;
@@ -60,11 +60,15 @@ void main() {
                  min(count / kWholeCell, 1.0));
     second = vec4(vec3(uvec3(moments[base + 4], moments[base + 5], moments[base + 6])) / (8.0 * count),
                   float(moments[base + 7]) * 16.0 / count);
-    for (int i = 0; i < kMomentWords; ++i) moments[base + i] = 0u;
   }
+  // Word by word: docs/gpu.md, rules 19 and 22.
+  int words = pixels > 0u ? kMomentWords : 0;
+  for (int i = 0; i < words; ++i) moments[base + i] = 0u;
   if ((seeds[slot].state & kLiving) != 0u) average(first, second, slot);
-  now[2 * slot] = first;
-  now[2 * slot + 1] = second;
+  now[2 * slot].xy = first.xy;
+  now[2 * slot].zw = first.zw;
+  now[2 * slot + 1].xy = second.xy;
+  now[2 * slot + 1].zw = second.zw;
 
   vec3 mean = first.rgb;
   float m = dot(mean, kLuma);
