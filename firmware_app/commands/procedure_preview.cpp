@@ -15,6 +15,7 @@
 #include "firmware_app/cli/progress.h"
 #include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/commands/procedure.h"
+#include "firmware_app/overlay/step_movie.h"
 #include "firmware_app/procedure/step_pictures.h"
 #include "firmware_app/procedure/step_tile.h"
 #include "hal/media/picture_file.h"
@@ -59,6 +60,24 @@ Procedure stepsOfNodes(const Procedure& procedure) {
         {.id = name, .parts = parts, .text = {{procedure.languages.front(), std::move(text)}}});
   }
   return drawn;
+}
+
+/// The step's movie, as its first frame, and the pictures of its text.
+std::vector<hal::Image> illustrationsOf(const Procedure& procedure, std::size_t step,
+                                        const std::string& language,
+                                        const std::filesystem::path& folder) {
+  std::vector<hal::Image> all;
+  if (const auto& movie = procedure.steps[step].movie) {
+    if (auto poster = moviePoster(folder / movie->file, kIllustrationRows)) {
+      all.push_back(*std::move(poster));
+    }
+  }
+  for (const procedure::StepPicture& each : procedure.text(step, language).pictures) {
+    const auto picture = hal::readPictureRgb(folder / each.file);
+    if (!picture) continue;  // it was there when the procedure was read
+    all.push_back(scaledRgb(picture->view(), sizeOfRows(picture->size(), kIllustrationRows)));
+  }
+  return all;
 }
 
 /// As many columns as let the sheet be no higher than an image may be.
@@ -107,7 +126,9 @@ int previewProcedure(const ProcedurePreviewOptions& options) {
     const hal::Image picture = pictures.draw(i, off);
     off.insert(step.removes.begin(), step.removes.end());
     tiles.push_back(
-        {.image = stepTile(procedure, i, language, picture, textRows), .label = step.id});
+        {.image = stepTile(procedure, i, language, picture,
+                           illustrationsOf(procedure, i, language, options.folder), textRows),
+         .label = step.id});
     progress.advance();
   }
   const hal::Image sheet = present::labelledSheet(tiles, columns);

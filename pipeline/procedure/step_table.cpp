@@ -283,6 +283,11 @@ bool readStep(const TomlTable& table, Procedure& procedure, std::size_t index,
   tryTo([&] { step.warnings = readReferences(table, "warnings", procedure.warnings); });
   tryTo([&] { readViews(table, procedure, step); });
   tryTo([&] { step.torque = readStepTorque(table); });
+  tryTo([&] {
+    if (auto file = table.optionalString("movie", "a movie in the folder")) {
+      step.movie = StepMovie{.file = *std::move(file), .size = {}};
+    }
+  });
   const bool isCheckKnown = tryTo([&] { step.check = readCheck(table); });
   if (isCheckKnown) tryTo([&] { readNext(table, procedure, index, step); });
   // Without parts of its own, a step shows what it moves.
@@ -290,6 +295,13 @@ bool readStep(const TomlTable& table, Procedure& procedure, std::size_t index,
     std::ranges::set_union(step.removes, step.fits, std::back_inserter(step.parts));
   }
   return isCheckKnown;
+}
+
+std::vector<config::ConfigError> unknownStepKeys(const TomlTable& table) {
+  static const std::vector<std::string> kKeys{
+      "apart", "check", "fits",    "goto", "id",    "motion", "movie",
+      "next",  "parts", "removes", "show", "tools", "torque", "warnings"};
+  return table.keysBeside(kKeys);
 }
 
 }  // namespace pleinair::procedure

@@ -9,13 +9,11 @@
 #include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>
-#include <gtest/gtest.h>
 
 #include "firmware_app/overlay/procedure_film.h"
 #include "hal/cameras/synthetic/synthetic_camera.h"
 #include "hal/error.h"
 #include "pipeline/engine/painter.h"
-#include "pipeline/gpu/egl_context.h"
 #include "pipeline/overlay/part_shape.h"
 #include "pipeline/scene/description/scene.h"
 #include "pipeline/scene/render/scene_bodies.h"
@@ -93,18 +91,6 @@ struct BenchMachine {
   hal::SyntheticCamera camera;
   hal::FrameSize size;
   scene::Scene scene;
-};
-
-/// Skips, saying why, where no context can be had.
-class OverlayTest : public testing::Test {
- protected:
-  void SetUp() override {
-    try {
-      const gpu::EglContext context;
-    } catch (const hal::Failure& error) {
-      GTEST_SKIP() << "needs OpenGL ES 3.1: " << error.what();
-    }
-  }
 };
 
 }  // namespace pleinair
