@@ -314,15 +314,6 @@ const std::filesystem::path& TomlTable::directory() const {
   return state_->directory;
 }
 
-std::vector<ConfigError> TomlTable::keysBeside(std::span<const std::string> known) const {
-  std::vector<ConfigError> errors;
-  for (const std::string& key : keys()) {
-    if (std::ranges::find(known, key) != known.end()) continue;
-    errors.push_back(error(key, unknownText("key", key, known), listText(known)));
-  }
-  return errors;
-}
-
 void TomlTable::finish() const {
   state_->finish();
 }

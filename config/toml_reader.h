@@ -115,9 +115,6 @@ class TomlTable {
   /// Directory of the file, to which its relative paths refer; empty for text.
   const std::filesystem::path& directory() const;
 
-  /// An error for each key of this table that is none of `known`. For readers that go on after a
-  /// mistake, and then ask for less than there may be.
-  std::vector<ConfigError> keysBeside(std::span<const std::string> known) const;
   /// Throws a ConfigError for the first key, here or in a table got from here, that no getter asked
   /// for; it lists the known keys.
   void finish() const;

@@ -14,6 +14,7 @@
 #include "pipeline/procedure/instruction_text.h"
 #include "pipeline/procedure/step_graph.h"
 #include "pipeline/procedure/step_table.h"
+#include "pipeline/procedure/unknown_keys.h"
 #include "pipeline/scene/description/scene_values.h"
 
 namespace pleinair::procedure {
@@ -56,7 +57,7 @@ class ProcedureReader {
     isSound = readSteps(root) && isSound;
     static const std::vector<std::string> kKeys{"languages", "model",   "name",    "step",
                                                 "tools",     "version", "warnings"};
-    std::ranges::move(root.keysBeside(kKeys), std::back_inserter(reading_.faults));
+    std::ranges::move(unknownKeys(root, kKeys), std::back_inserter(reading_.faults));
     readTexts();
     const bool hasSteps = !reading_.procedure.steps.empty() && isSound;
     if (!hasSteps) return;

@@ -12,6 +12,7 @@
 
 #include "config/suggestion.h"
 #include "pipeline/procedure/units.h"
+#include "pipeline/procedure/unknown_keys.h"
 
 namespace pleinair::procedure {
 namespace {
@@ -301,7 +302,7 @@ std::vector<config::ConfigError> unknownStepKeys(const TomlTable& table) {
   static const std::vector<std::string> kKeys{
       "apart", "check", "fits",    "goto", "id",    "motion", "movie",
       "next",  "parts", "removes", "show", "tools", "torque", "warnings"};
-  return table.keysBeside(kKeys);
+  return unknownKeys(table, kKeys);
 }
 
 }  // namespace pleinair::procedure
