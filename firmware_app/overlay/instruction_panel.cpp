@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
 #include "firmware_app/overlay/card.h"
 #include "firmware_app/overlay/step_movie.h"
 #include "hal/media/picture_file.h"
@@ -192,8 +193,7 @@ Panel panelOf(const StepShown& shown, const std::filesystem::path& folder, hal::
   const int numberWidth = isEnd ? 0 : numberInk.size().width + m.px(14);
   const int sideWidth = 31 * output.width / 100;
   const int left = margin + numberWidth + (isEnd ? 0 : m.px(8));
-  const int pictureRows =
-      std::min(m.px(84), mostHeight(output) - barsHeight - 2 * margin);
+  const int pictureRows = std::min(m.px(84), mostHeight(output) - barsHeight - 2 * margin);
   std::optional<hal::Image> picture;
   hal::FrameSize pictureSize;
   const bool hasMovie = !isEnd && procedure.steps[shown.step].movie && pictureRows > 0;
@@ -208,8 +208,8 @@ Panel panelOf(const StepShown& shown, const std::filesystem::path& folder, hal::
   const Column text = mainColumn(shown, left, std::max(1, sideX - pictureWidth - left - margin), m);
   const Column side = sideColumn(shown, sideX, sideWidth, m);
 
-  const int body = std::max({text.height(m), side.height(m), numberInk.size().height + m.px(8),
-                             pictureSize.height});
+  const int body = std::max(
+      {text.height(m), side.height(m), numberInk.size().height + m.px(8), pictureSize.height});
   const int wholeHeight = barsHeight + body + 2 * margin;
   const int height = std::min(wholeHeight, mostHeight(output));
   Card card({output.width, height});

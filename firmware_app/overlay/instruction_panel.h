@@ -19,7 +19,7 @@ struct InstructionPanel {
 /// output: a long text is set in smaller letters, by up to 30 %, and then cut. Any thread; all as
 /// OverlayContent has its pictures.
 InstructionPanel instructionPanel(const StepShown& shown, const std::filesystem::path& folder,
-                            hal::FrameSize output);
+                                  hal::FrameSize output);
 /// The number of a step, and a short text beside it.
 hal::Image stepMarker(const std::string& number, const std::string& text, int outputWidth);
 /// Why nothing is shown on the machine.

@@ -26,8 +26,8 @@ struct StepShown {
 
 /// The overlay of a step, for pictures of the size `output`: looks and ghosts of its parts, arrows,
 /// a label, the instruction, and the inset `inset`: stepInset(), or blankInset() until that is
-/// made. A movie is not in it, but its place in the panel (0 × 0: none). `machine`: the model of the scene that the procedure is about, with the procedure's parts
-/// (machineIn()). Any thread.
+/// made. A movie is not in it, but its place in the panel (0 × 0: none). `machine`: the model of
+/// the scene that the procedure is about, with the procedure's parts (machineIn()). Any thread.
 overlay::OverlayContent stepContent(const StepShown& shown, const scene::Model& machine,
                                     const std::filesystem::path& folder, hal::FrameSize output,
                                     hal::Image inset);

@@ -21,8 +21,7 @@ constexpr double kMostFrames = procedure::kMostMovie / kPeriod + 1;
 /// `place`, but no larger than all frames of the longest movie may be.
 hal::FrameSize frameSize(hal::FrameSize place) {
   constexpr double kMostPixels = kMostMovieBytes / 3.0 / kMostFrames;
-  const double share =
-      std::min(1.0, std::sqrt(kMostPixels / place.width / place.height));
+  const double share = std::min(1.0, std::sqrt(kMostPixels / place.width / place.height));
   return {std::max(1, static_cast<int>(share * place.width)),
           std::max(1, static_cast<int>(share * place.height))};
 }

@@ -160,8 +160,8 @@ int stepTextRows(const Procedure& procedure, std::size_t step, const std::string
   for (const TextBlock& block : blocksOf(procedure, step, language)) {
     rows += inkOf(block, width).size().height + 2 * kGapPx;
   }
-  const bool hasAny = procedure.steps[step].movie ||
-                      !procedure.text(step, language).pictures.empty();
+  const bool hasAny =
+      procedure.steps[step].movie || !procedure.text(step, language).pictures.empty();
   return rows + (hasAny ? kIllustrationRows + 2 * kGapPx : 0);
 }
 

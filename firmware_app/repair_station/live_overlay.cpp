@@ -136,12 +136,10 @@ std::shared_ptr<const overlay::OverlayContent> LiveOverlay::update(StepShown sho
     last_ = std::move(shown);
     hasInset_ = inset_.isFor(last_);
     hasMovie_ = movie_.isFor(last_);
-    making_ = std::async(std::launch::async,
-                         [this, step = last_,
-                          inset = hasInset_ ? inset_.made : blankInset(output_.width),
-                          movie = hasMovie_ ? movie_.made : nullptr] {
-                           return make(step, inset, movie);
-                         });
+    making_ = std::async(
+        std::launch::async,
+        [this, step = last_, inset = hasInset_ ? inset_.made : blankInset(output_.width),
+         movie = hasMovie_ ? movie_.made : nullptr] { return make(step, inset, movie); });
   }
   makeLate();
   return isNew ? content_ : nullptr;

@@ -83,7 +83,7 @@ struct OverlayContent {
   std::vector<Ghost> ghosts;
   std::vector<Arrow> arrows;
   std::vector<Label> labels;
-  hal::Image panel;  ///< the instruction; at the lower or upper edge
+  hal::Image panel;                         ///< the instruction; at the lower or upper edge
   std::shared_ptr<const PanelMovie> movie;  ///< over the panel; null: none
   MoviePlace moviePlace;
   hal::Image inset;  ///< the step drawn from the model, where nothing else is sure

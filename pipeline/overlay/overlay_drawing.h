@@ -42,8 +42,8 @@ class OverlayDrawing {
   void drawSprite(const gpu::RenderTarget& target, const Sprite& sprite, glm::ivec2 topLeft,
                   float opacity);
   /// Scaled to that size.
-  void drawTexture(const gpu::RenderTarget& target, const gpu::Texture& picture,
-                   glm::ivec2 topLeft, hal::FrameSize size, float opacity);
+  void drawTexture(const gpu::RenderTarget& target, const gpu::Texture& picture, glm::ivec2 topLeft,
+                   hal::FrameSize size, float opacity);
 
  private:
   struct LineVertex {

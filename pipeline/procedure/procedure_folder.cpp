@@ -84,10 +84,11 @@ class ProcedureFolder : public ProcedureSources {
     }
     // Only what is beyond is decoded: most movies have nothing there.
     bool isTooLong = false;
-    (void)hal::forMovieFrames(folder_ / name, kMostMovie, [&](const hal::ImageView&, hal::Duration) {
-      isTooLong = true;
-      return false;
-    });
+    (void)hal::forMovieFrames(folder_ / name, kMostMovie,
+                              [&](const hal::ImageView&, hal::Duration) {
+                                isTooLong = true;
+                                return false;
+                              });
     if (isTooLong) {
       return tl::unexpected(
           faultOf(fmt::format("\"{}\" lasts longer than {} s", name, kMostMovie.count()),
@@ -143,8 +144,8 @@ class ProcedureFolder : public ProcedureSources {
   hal::Result<void> find(const std::string& name, std::string_view kind) const {
     std::string remedy = fmt::format("a {} in the folder", kind);
     if (!isInside(name)) {
-      return tl::unexpected(faultOf(fmt::format("\"{}\" is not in the procedure's folder", name),
-                                    std::move(remedy)));
+      return tl::unexpected(
+          faultOf(fmt::format("\"{}\" is not in the procedure's folder", name), std::move(remedy)));
     }
     std::error_code ignored;
     if (!fs::exists(folder_ / name, ignored)) {

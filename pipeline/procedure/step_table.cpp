@@ -299,9 +299,9 @@ bool readStep(const TomlTable& table, Procedure& procedure, std::size_t index,
 }
 
 std::vector<config::ConfigError> unknownStepKeys(const TomlTable& table) {
-  static const std::vector<std::string> kKeys{
-      "apart", "check", "fits",    "goto", "id",    "motion", "movie",
-      "next",  "parts", "removes", "show", "tools", "torque", "warnings"};
+  static const std::vector<std::string> kKeys{"apart",  "check", "fits",   "goto",    "id",
+                                              "motion", "movie", "next",   "parts",   "removes",
+                                              "show",   "tools", "torque", "warnings"};
   return unknownKeys(table, kKeys);
 }
 

@@ -67,7 +67,8 @@ TEST_F(OverlayTest, IsShownForAMomentWhileAllTagsAreCovered) {
   expectShownWhereItIsRightOnly(playNamed("all tags covered for 0.9 s"));
 }
 
-/// A pose that is held while the camera rests must neither lag when it goes on nor be kept for ever.
+/// A pose that is held while the camera rests must neither lag when it goes on nor be kept for
+/// ever.
 TEST_F(OverlayTest, IsShownWhereItIsRightWhileTheCameraRestsAndWhenItGoesOn) {
   const Counts counts = playNamed("held poses: the camera rests for 0.6 s and goes on");
   expectShownWhereItIsRightOnly(counts);

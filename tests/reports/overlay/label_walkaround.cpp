@@ -42,14 +42,14 @@ double LabelTrack::driftPxPerSecond() const {
 
 LabelWalkaround::LabelWalkaround(bool onEach)
     : bench_({.size = kSize, .framePeriod = kWalkPeriod, .shot = hal::SyntheticShot::kWalkaround},
-          {0, 1, 2, 3, 4}),
+             {0, 1, 2, 3, 4}),
       film_({.folder = kGearboxProcedure, .step = "end_bolts_off"}, bench_.scene),
       painter_({.pictureSize = kSize,
-               .scene = bench_.scene,
-               .style = "none",
-               .readsSurfaces = onEach,
-               .overlay = true,
-               .machine = film_.machine()}),
+                .scene = bench_.scene,
+                .style = "none",
+                .readsSurfaces = onEach,
+                .overlay = true,
+                .machine = film_.machine()}),
       parameters_(painter_.defaultParameters()) {
   overlay::OverlayContent content = *film_.at(hal::Duration{0}, kSize);
   const hal::Image picture(
@@ -105,7 +105,7 @@ void LabelWalkaround::countOverlaps(std::span<const LabelBox> boxes) {
 }
 
 void LabelWalkaround::follow(std::size_t index, const overlay::PlacedLabel& label,
-            const glm::dmat4& cameraFromModel) {
+                             const glm::dmat4& cameraFromModel) {
   // It leaves its pixel after one, and the pose is off by a little.
   constexpr double kLaidOutAgainPx = 2.0;
   LabelTrack& track = tracks[index];

@@ -20,7 +20,8 @@ struct LabelTrack {
   std::vector<double> x, y;           ///< px from where the point truly is
   std::vector<LabelTrack> completed;  ///< before it was laid out again
 
-  /// px a second of a straight line through it, without the label's whole pixels and the pose's noise.
+  /// px a second of a straight line through it, without the label's whole pixels and the pose's
+  /// noise.
   double driftPxPerSecond() const;
 };
 

@@ -74,7 +74,8 @@ std::string labelPlot() {
 
 int run(const std::string& file) {
   std::string page = kHead;
-  std::printf("| film | wrong by more than 5 px, shown | right within 2 px, shown |\n|---|---|---|\n");
+  std::printf(
+      "| film | wrong by more than 5 px, shown | right within 2 px, shown |\n|---|---|---|\n");
   Counts all;
   for (const NamedFilm& each : truthFilms()) {
     const std::vector<Moment> moments = play(each.film);

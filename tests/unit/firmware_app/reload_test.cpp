@@ -103,7 +103,8 @@ TEST_F(ReloadTest, TellsWhatWasReadAndWhatComesLater) {
 
 TEST_F(ReloadTest, TellsWhyTheLastOneStaysInForce) {
   start("");
-  const ReloadOutcome wrong = outcomeOf([&] { return reload("[style.watercolor]\ncell_size = -3\n"); });
+  const ReloadOutcome wrong =
+      outcomeOf([&] { return reload("[style.watercolor]\ncell_size = -3\n"); });
   EXPECT_FALSE(wrong.painting);
   EXPECT_THAT(wrong.notice, StartsWith("the last configuration stays in force: "));
   EXPECT_THAT(wrong.notice, HasSubstr("site.toml:2"));

@@ -92,8 +92,7 @@ TEST_F(InstructionPanelTest, AMoviesPlaceIsInsideBesideTheText) {
     }
   }
   procedure->steps[0].movie.reset();
-  EXPECT_FALSE(
-      instructionPanel({.procedure = procedure, .language = "de"}, {}, {640, 480}).movie);
+  EXPECT_FALSE(instructionPanel({.procedure = procedure, .language = "de"}, {}, {640, 480}).movie);
 }
 
 }  // namespace

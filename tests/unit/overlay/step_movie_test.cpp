@@ -66,18 +66,17 @@ TEST_F(StepMovieTest, IsNoneWhereTheFileIsGoneOrItIsNotWantedAnyMore) {
 }
 
 TEST_F(StepMovieTest, ThePosterIsItsFirstFrameWithASign) {
-  const auto file = write({.size = {160, 90}, .draw = [](AVFrame& frame, int number) {
-                             for (int y = 0; y < frame.height; ++y) {
-                               std::fill_n(frame.data[0] + y * frame.linesize[0], frame.width,
-                                           number == 0 ? 120 : 200);
-                             }
-                             for (int plane = 1; plane < 3; ++plane) {
-                               for (int y = 0; y < frame.height / 2; ++y) {
-                                 std::fill_n(frame.data[plane] + y * frame.linesize[plane],
-                                             frame.width / 2, 128);
-                               }
-                             }
-                           }});
+  const auto file = write(
+      {.size = {160, 90}, .draw = [](AVFrame& frame, int number) {
+         for (int y = 0; y < frame.height; ++y) {
+           std::fill_n(frame.data[0] + y * frame.linesize[0], frame.width, number == 0 ? 120 : 200);
+         }
+         for (int plane = 1; plane < 3; ++plane) {
+           for (int y = 0; y < frame.height / 2; ++y) {
+             std::fill_n(frame.data[plane] + y * frame.linesize[plane], frame.width / 2, 128);
+           }
+         }
+       }});
   const auto poster = moviePoster(file, 96);
   ASSERT_TRUE(poster);
   EXPECT_EQ(poster->size(), (hal::FrameSize{170, 96}));

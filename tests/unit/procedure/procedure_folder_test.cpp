@@ -117,8 +117,7 @@ TEST_F(ProcedureFolderTest, WhatIsMissingIsSaid) {
 TEST_F(ProcedureFolderTest, AMovieIsCheckedAndInTheHash) {
   writeSound();
   const auto messagesWith = [&](const std::string& movie) {
-    write(path("procedure.toml"),
-          kHead + "[[step]]\nid = \"a\"\nmovie = \"" + movie + "\"\n");
+    write(path("procedure.toml"), kHead + "[[step]]\nid = \"a\"\nmovie = \"" + movie + "\"\n");
     return messagesOf(readProcedureFolder(folder_.path()));
   };
   support::writeAvMovie(path("turn.mkv"), {.size = {64, 36}, .frames = 15 * 25});
