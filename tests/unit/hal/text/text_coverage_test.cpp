@@ -1,6 +1,9 @@
 #include "hal/text/text_coverage.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -50,6 +53,40 @@ TEST(TextCoverage, CutsWhatIsTooWide) {
   EXPECT_EQ(cut.size().height,
             textCoverage(text, {.fontPixels = 15, .maxWidth = 1000}).size().height);
   EXPECT_GT(inkIn(cut, 0, 120), 50);
+}
+
+/// Letters that look the same in three scripts show that their glyphs are there: a missing one would
+/// be a box with its number.
+TEST(TextCoverage, HasGreekAndCyrillicLetters) {
+  const auto drawn = [](const std::string& text) {
+    const Image image = textCoverage(text, {.fontPixels = 30, .maxWidth = 1000});
+    const auto bytes = image.view().planes[0].bytes;
+    return std::vector<std::uint8_t>(bytes.begin(), bytes.end());
+  };
+  EXPECT_EQ(drawn("ΑΒΕΖΗΙΚΜΝΟΡΤΧ"), drawn("ABEZHIKMNOPTX"));
+  EXPECT_EQ(drawn("АВЕКМНОРСТХ"), drawn("ABEKMHOPCTX"));
+  EXPECT_NE(drawn("ΓΔΘ"), drawn("ГДФ"));
+}
+
+TEST(TextCoverage, JoinsArabicLettersFromRightToLeft) {
+  const auto drawn = [](const std::string& text) {
+    return textCoverage(text, {.fontPixels = 30, .maxWidth = 1000});
+  };
+  // U+200C keeps letters apart.
+  EXPECT_LT(drawn("ببب").size().width, drawn("ب\u200Cب\u200Cب").size().width * 8 / 10);
+  // The alef, a thin stroke, is on the right: it comes first.
+  Image word = drawn("اــــــ");
+  const int half = word.size().width / 2;
+  const auto highestIn = [&](int from, int to) {
+    for (int y = 0; y < word.size().height; ++y) {
+      const auto row = word.row(0, y);
+      for (int x = from; x < to; ++x) {
+        if (row[static_cast<std::size_t>(x)] > 127) return y;
+      }
+    }
+    return word.size().height;
+  };
+  EXPECT_LT(highestIn(half, word.size().width), highestIn(0, half) - 8);
 }
 
 TEST(TextCoverage, SurvivesAnyText) {
