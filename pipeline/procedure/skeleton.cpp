@@ -19,8 +19,11 @@ struct NodeGroup {
   std::string stem;  ///< "bolt" of bolt_1 and bolt_2
   std::size_t triangles = 0;
   std::vector<std::string> names;
-  /// What people call it: the name of a single node, which may have neighbours of another shape.
-  const std::string& title() const { return names.size() == 1 ? names.front() : stem; }
+  bool isFirst = true;  ///< of its stem
+  /// Stands for it: nodes of other shapes may have the stem, too.
+  const std::string& title() const {
+    return isFirst && names.size() > 1 ? stem : names.front();
+  }
 };
 
 /// "bolt_12" and "bolt.012" without the number.
@@ -47,7 +50,10 @@ std::vector<NodeGroup> groupsOf(const scene::Model& model) {
       return each.stem == stem && each.triangles == triangles;
     });
     if (group == groups.end()) {
-      group = groups.insert(groups.end(), {.stem = stem, .triangles = triangles, .names = {}});
+      const bool isFirst = std::ranges::find(groups, stem, &NodeGroup::stem) == groups.end();
+      group = groups.insert(
+          groups.end(),
+          {.stem = stem, .triangles = triangles, .names = {}, .isFirst = isFirst});
     }
     group->names.push_back(part.name);
   }

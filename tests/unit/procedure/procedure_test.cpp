@@ -10,7 +10,6 @@
 namespace pleinair::procedure {
 namespace {
 
-using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Pair;
@@ -68,7 +67,6 @@ next = "end"
   EXPECT_EQ(drain.torque->newtonMetres, 25.0);
   EXPECT_EQ(drain.movie->file, "plug.mp4");
   EXPECT_EQ(drain.movie->size, (hal::FrameSize{320, 180}));
-  EXPECT_THAT(procedure.files, Contains("plug.mp4"));
   EXPECT_EQ(procedure.warnings[drain.warnings.at(0)].level, WarningLevel::kCaution);
   EXPECT_EQ(procedure.tools[drain.tools.at(0)].name.at("de"), "Inbus");
   EXPECT_THAT(drain.next, ElementsAre(Pair(Outcome::kDone, 1U)));
@@ -83,7 +81,7 @@ next = "end"
                                     Pair(Outcome::kHigh, kEnd)));
   EXPECT_EQ(procedure.steps[2].check->comparison, "plug.png");
   EXPECT_THAT(procedure.steps[2].parts, ElementsAre(0)) << "what it moves is what it shows";
-  EXPECT_THAT(procedure.files, ElementsAre("de.md", "en.md", "plug.png"));
+  EXPECT_THAT(procedure.files, ElementsAre("de.md", "en.md", "plug.mp4", "plug.png"));
   EXPECT_EQ(procedure.text(0, "fr").title, "Drain the oil") << "the default language";
 }
 
@@ -180,6 +178,13 @@ TEST(ProcedureMistakes, UnknownKeysAreToldBesideOthers) {
   EXPECT_THAT(messages, HasSubstr("step[0].check"));
   EXPECT_EQ(std::ranges::count(messages, '\n'), 6)
       << "the sixth: step b has a question but no check; next is no unknown key: " << messages;
+}
+
+/// An array below a table's head belongs to the table.
+TEST(ProcedureMistakes, StepsBelowATableAreSaidToBeInIt) {
+  const std::string messages = messagesOf(readSteps("step = [{ id = \"a\" }]\n", {"a"}, ""));
+  EXPECT_THAT(messages, HasSubstr("p.toml:6: model.step: unknown key"));
+  EXPECT_THAT(messages, HasSubstr("step: missing, allowed: at least one [[step]]"));
 }
 
 TEST(ProcedureMistakes, AWrongIdHidesNoOthers) {

@@ -52,9 +52,10 @@ TEST(Skeleton, NumberedNodesOfDifferentShapesHaveStepsOfTheirOwn) {
     model.parts[i].triangleCount = triangles.at(i);
   }
   const Skeleton skeleton = skeletonOf(model, "m", "builtin:gearbox", "", kLanguages);
-  EXPECT_EQ(skeleton.steps, 4U) << skeleton.toml;
+  EXPECT_EQ(skeleton.steps, 3U) << skeleton.toml;
+  EXPECT_THAT(skeleton.toml, HasSubstr("id = \"body\"\nparts = [\"body\", \"body_2\"]"));
   EXPECT_THAT(skeleton.toml, HasSubstr("id = \"body_1\"\nparts = [\"body_1\"]"));
-  EXPECT_THAT(skeleton.toml, HasSubstr("parts = [\"body_3\", \"body_4\"]"));
+  EXPECT_THAT(skeleton.toml, HasSubstr("id = \"body_3\"\nparts = [\"body_3\", \"body_4\"]"));
 }
 
 TEST(Skeleton, OfTheGearbox) {
