@@ -69,7 +69,7 @@ LabelWalkaround::LabelWalkaround(bool onEach)
 void LabelWalkaround::play(int frames) {
   for (int i = 0; i < frames; ++i) {
     const auto frame = bench_.next().first;
-    const Picture picture = hal::orThrow(painter_.paint(frame, parameters));
+    const Picture picture = hal::orThrow(painter_.paint(frame, parameters_));
     if (picture.overlay->trust.opacity < 1.0F) continue;
     ++shown;
     const auto labels = painter_.overlayLabels();
