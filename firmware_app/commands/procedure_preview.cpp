@@ -45,7 +45,8 @@ std::string stepLanguage(const ProcedurePreviewOptions& options, const Procedure
                       .remedy = fmt::format("one of {}", fmt::join(procedure.languages, ", "))});
 }
 
-/// A step for each name of a node, with all parts of that name.
+/// A step for each name of a node, with all parts of that name; a step for each of a few, which a
+/// procedure may want to tell apart.
 Procedure stepsOfNodes(const Procedure& procedure) {
   std::map<std::string, std::vector<std::size_t>> nodes;
   for (std::size_t i = 0; i < procedure.model->parts.size(); ++i) {
@@ -53,11 +54,22 @@ Procedure stepsOfNodes(const Procedure& procedure) {
   }
   Procedure drawn = procedure;
   drawn.steps.clear();
-  for (const auto& [name, parts] : nodes) {
-    procedure::StepText text{.title = name, .body = {}, .question = {}, .pictures = {}};
-    if (parts.size() > 1) text.body = fmt::format("×{}", parts.size());
+  const auto add = [&](const std::string& name, const std::vector<std::size_t>& parts,
+                       const std::string& count) {
+    procedure::StepText text{.title = name, .body = count, .question = {}, .pictures = {}};
     drawn.steps.push_back(
         {.id = name, .parts = parts, .text = {{procedure.languages.front(), std::move(text)}}});
+  };
+  constexpr std::size_t kFew = 4;
+  for (const auto& [name, parts] : nodes) {
+    if (parts.size() == 1 || parts.size() > kFew) {
+      add(name, parts, parts.size() > 1 ? fmt::format("×{}", parts.size()) : "");
+      continue;
+    }
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      add(fmt::format("{}#{}", name, i + 1), {parts[i]},
+          fmt::format("{} / {}: {}", i + 1, parts.size(), name));
+    }
   }
   return drawn;
 }

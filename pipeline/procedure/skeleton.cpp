@@ -21,9 +21,7 @@ struct NodeGroup {
   std::vector<std::string> names;
   bool isFirst = true;  ///< of its stem
   /// Stands for it: nodes of other shapes may have the stem, too.
-  const std::string& title() const {
-    return isFirst && names.size() > 1 ? stem : names.front();
-  }
+  const std::string& title() const { return isFirst && names.size() > 1 ? stem : names.front(); }
 };
 
 /// "bolt_12" and "bolt.012" without the number.
@@ -52,8 +50,7 @@ std::vector<NodeGroup> groupsOf(const scene::Model& model) {
     if (group == groups.end()) {
       const bool isFirst = std::ranges::find(groups, stem, &NodeGroup::stem) == groups.end();
       group = groups.insert(
-          groups.end(),
-          {.stem = stem, .triangles = triangles, .names = {}, .isFirst = isFirst});
+          groups.end(), {.stem = stem, .triangles = triangles, .names = {}, .isFirst = isFirst});
     }
     group->names.push_back(part.name);
   }

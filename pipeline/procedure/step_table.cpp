@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -48,7 +51,21 @@ std::vector<std::string> patternsOf(std::span<const std::string> names) {
   return {patterns.begin(), patterns.end()};
 }
 
-/// The parts of that name; "name_*": those whose names begin so.
+/// "piston#2": the second of the parts named "piston"; nothing where it is no such name.
+std::optional<std::size_t> partNumbered(const scene::Model& model, std::string_view name) {
+  const std::size_t sign = name.rfind('#');
+  if (sign == std::string_view::npos) return std::nullopt;
+  std::size_t number = 0;
+  const char* const end = name.data() + name.size();
+  const auto parsed = std::from_chars(name.data() + sign + 1, end, number);
+  if (parsed.ec != std::errc{} || parsed.ptr != end || number == 0) return std::nullopt;
+  for (std::size_t i = 0; i < model.parts.size(); ++i) {
+    if (model.parts[i].name == name.substr(0, sign) && --number == 0) return i;
+  }
+  return std::nullopt;
+}
+
+/// The parts of that name; "name_*": those whose names begin so; "name#2": one of several.
 std::vector<std::size_t> partsNamed(const scene::Model& model, std::string_view name) {
   std::vector<std::size_t> parts;
   const bool isPrefix = name.ends_with('*');
@@ -57,6 +74,8 @@ std::vector<std::size_t> partsNamed(const scene::Model& model, std::string_view 
     const std::string& each = model.parts[i].name;
     if (isPrefix ? each.starts_with(prefix) : each == name) parts.push_back(i);
   }
+  if (!parts.empty()) return parts;
+  if (const auto numbered = partNumbered(model, name)) parts.push_back(*numbered);
   return parts;
 }
 

@@ -180,6 +180,28 @@ TEST(ProcedureMistakes, UnknownKeysAreToldBesideOthers) {
       << "the sixth: step b has a question but no check; next is no unknown key: " << messages;
 }
 
+TEST(Procedure, TellsNodesOfOneNameApart) {
+  class Twins : public MemorySources {
+   public:
+    hal::Result<std::shared_ptr<const scene::Model>> model(const scene::ModelSource&) override {
+      return modelWithParts({"piston", "rod", "piston", "ring#1"});
+    }
+  } sources;
+  sources.texts["en.md"] = "# T\n## a: A\n## b: B\n";
+  const auto read = [&](const std::string& a, const std::string& b) {
+    return readProcedure(kHead + "[[step]]\nid = \"a\"\nparts = [" + a +
+                             "]\n[[step]]\nid = \"b\"\nparts = [" + b + "]\n",
+                         "p.toml", sources);
+  };
+  const ProcedureReading reading = read("\"piston\", \"ring#1\"", "\"piston#2\"");
+  EXPECT_EQ(messagesOf(reading), "");
+  EXPECT_THAT(reading.procedure.steps[0].parts, ElementsAre(0, 2, 3));
+  EXPECT_THAT(reading.procedure.steps[1].parts, ElementsAre(2));
+  const std::string messages = messagesOf(read("\"piston#3\"", "\"rod#0\""));
+  EXPECT_THAT(messages, HasSubstr("step[0].parts: the model has no node \"piston#3\""));
+  EXPECT_THAT(messages, HasSubstr("step[1].parts: the model has no node \"rod#0\""));
+}
+
 /// An array below a table's head belongs to the table.
 TEST(ProcedureMistakes, StepsBelowATableAreSaidToBeInIt) {
   const std::string messages = messagesOf(readSteps("step = [{ id = \"a\" }]\n", {"a"}, ""));
