@@ -16,7 +16,7 @@ using overlay_truth::Film;
 using overlay_truth::kAllTags;
 using overlay_truth::showInstead;
 
-Counts play(const Film& film) {
+Counts playAndCount(const Film& film) {
   const Counts counts = overlay_truth::countsOf(overlay_truth::play(film));
   std::printf("frames %d, wrong %d (shown %d), right %d (shown %d), worst shown %.2f px\n",
               counts.frames, counts.wrong, counts.wrongAndShown, counts.right, counts.rightAndShown,
@@ -33,7 +33,7 @@ Counts play(const Film& film) {
 /// One of the films that docs/measured.md tells of.
 Counts playNamed(const std::string& name) {
   for (const overlay_truth::NamedFilm& each : overlay_truth::truthFilms()) {
-    if (each.name == name) return play(each.film);
+    if (each.name == name) return playAndCount(each.film);
   }
   throw std::invalid_argument("no film " + name);
 }
@@ -98,7 +98,7 @@ TEST_F(OverlayTest, ACommandCardOverTheMachinesTagIsNoOtherMachine) {
                   .frames = 22,
                   .change = shows,
                   .cards = {1}};
-  const Counts counts = play(film);
+  const Counts counts = playAndCount(film);
   EXPECT_EQ(counts.otherMachine, 0);
   EXPECT_EQ(counts.wrongAndShown, 0);
   EXPECT_GE(counts.rightAndShown, 0.95 * counts.right);
@@ -108,11 +108,11 @@ TEST_F(OverlayTest, ACommandCardOverTheMachinesTagIsNoOtherMachine) {
 /// Two tags that contradict each other: which of them is wrong cannot be known.
 TEST_F(OverlayTest, IsNotWrongWhereOneOfTwoTagsHasAnotherSize) {
   for (const double factor : {0.7, 0.9, 1.4}) {
-    const Counts counts =
-        play({.options = {.shot = hal::SyntheticShot::kWalkaround},
-              .tags = {0, 1},
-              .frames = 16,
-              .author = [&](scene::Scene& scene) { scene.tags.front().edgeMetres *= factor; }});
+    const Counts counts = playAndCount(
+        {.options = {.shot = hal::SyntheticShot::kWalkaround},
+         .tags = {0, 1},
+         .frames = 16,
+         .author = [&](scene::Scene& scene) { scene.tags.front().edgeMetres *= factor; }});
     EXPECT_EQ(counts.wrongAndShown, 0) << factor;
   }
 }
@@ -126,13 +126,14 @@ TEST_F(OverlayTest, IsNotWrongByATagThatContradictedOneBeforeANewPainter) {
     }
   };
   const auto playWith = [&](bool keepsDoubts) {
-    return play({.options = {.shot = hal::SyntheticShot::kWalkaround},
-                 .tags = {0, 1},
-                 .frames = 20,
-                 .change = covers,
-                 .author = [](scene::Scene& scene) { scene.tags.front().edgeMetres *= 0.7; },
-                 .painterAnewAt = kAnew,
-                 .keepsDoubts = keepsDoubts});
+    return playAndCount(
+        {.options = {.shot = hal::SyntheticShot::kWalkaround},
+         .tags = {0, 1},
+         .frames = 20,
+         .change = covers,
+         .author = [](scene::Scene& scene) { scene.tags.front().edgeMetres *= 0.7; },
+         .painterAnewAt = kAnew,
+         .keepsDoubts = keepsDoubts});
   };
   EXPECT_EQ(playWith(true).wrongAndShown, 0);
   EXPECT_GT(playWith(false).wrongAndShown, 5) << "what it would be";
@@ -140,11 +141,11 @@ TEST_F(OverlayTest, IsNotWrongByATagThatContradictedOneBeforeANewPainter) {
 
 TEST_F(OverlayTest, IsNotWrongWhereTheTagWasPrintedAtAnotherSize) {
   for (const double factor : {0.7, 0.9, 1.1, 1.4}) {
-    const Counts counts =
-        play({.options = {.shot = hal::SyntheticShot::kWalkaround},
-              .tags = kAllTags,
-              .frames = 24,
-              .author = [&](scene::Scene& scene) { scene.tags.front().edgeMetres *= factor; }});
+    const Counts counts = playAndCount(
+        {.options = {.shot = hal::SyntheticShot::kWalkaround},
+         .tags = kAllTags,
+         .frames = 24,
+         .author = [&](scene::Scene& scene) { scene.tags.front().edgeMetres *= factor; }});
     EXPECT_EQ(counts.wrongAndShown, 0) << factor;
   }
 }
