@@ -207,8 +207,12 @@ TEST_F(OverlayTest, SteadyFramesAllocateNothing) {
 }
 
 TEST_F(OverlayTest, AMoviePlaysInThePanelAgainAndAgainWithoutAllocating) {
-  Shown shown("drain", "none");
-  overlay::OverlayContent content = *shown.parameters->overlay;
+  // Without a machine the panel stays at the lower edge.
+  BenchMachine bench({.size = kSize, .shot = hal::SyntheticShot::kStill}, {0});
+  app::ProcedureFilm film({.folder = kGearboxProcedure, .step = "drain"}, bench.scene);
+  Painter painter({.pictureSize = kSize, .style = "none", .overlay = true});
+  PaintParameters parameters = painter.defaultParameters();
+  overlay::OverlayContent content = *film.at(hal::Duration{0}, kSize);
   constexpr hal::FrameSize kMovie{30, 20};
   overlay::PanelMovie movie{.frames = {}, .length = std::chrono::milliseconds(200)};
   const auto greyOf = [](std::size_t frame) { return static_cast<std::uint8_t>(60 + 50 * frame); };
@@ -220,17 +224,17 @@ TEST_F(OverlayTest, AMoviePlaysInThePanelAgainAndAgainWithoutAllocating) {
   }
   content.movie = std::make_shared<const overlay::PanelMovie>(std::move(movie));
   content.moviePlace = {.topLeft = {120, 8}, .size = {60, 40}};  // twice as large
-  shown.parameters->overlay = std::make_shared<const overlay::OverlayContent>(content);
+  parameters.overlay = std::make_shared<const overlay::OverlayContent>(content);
   const int top = kSize.height - content.panel.size().height;
   const int left = content.moviePlace.topLeft.x;
   std::vector<hal::CapturedFrame> frames;
-  for (int i = 0; i < 24; ++i) frames.push_back(shown.bench.next().first);
+  for (int i = 0; i < 24; ++i) frames.push_back(bench.next().first);
   const hal::TimePoint began = frames.front().captureTime;
   std::vector<bool> isShown(4);
   hal::Image before;
   for (int i = 0; i < 12; ++i) {
-    hal::orThrow(shown.painter->paint(frames[i], *shown.parameters));
-    const hal::Image painted = hal::orThrow(shown.painter->snapshot());
+    hal::orThrow(painter.paint(frames[i], parameters));
+    const hal::Image painted = hal::orThrow(painter.snapshot());
     const std::size_t frame = overlay::frameAt(*content.movie, frames[i].captureTime - began);
     isShown[frame] = true;
     const auto pxAt = [&](const hal::Image& image, int x, int y) {
@@ -248,7 +252,7 @@ TEST_F(OverlayTest, AMoviePlaysInThePanelAgainAndAgainWithoutAllocating) {
   EXPECT_EQ(isShown, std::vector<bool>(4, true));
   EXPECT_EQ(support::allocationsIn([&] {
               for (std::size_t i = 12; i < 24; ++i) {
-                (void)shown.painter->paint(frames[i], *shown.parameters);
+                (void)painter.paint(frames[i], parameters);
               }
             }),
             0)
