@@ -15,6 +15,7 @@
 #include "firmware_app/cli/progress.h"
 #include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/commands/procedure.h"
+#include "firmware_app/overlay/step_movie.h"
 #include "firmware_app/procedure/step_pictures.h"
 #include "firmware_app/procedure/step_tile.h"
 #include "hal/media/picture_file.h"
@@ -44,7 +45,8 @@ std::string stepLanguage(const ProcedurePreviewOptions& options, const Procedure
                       .remedy = fmt::format("one of {}", fmt::join(procedure.languages, ", "))});
 }
 
-/// A step for each name of a node, with all parts of that name.
+/// A step for each name of a node, with all parts of that name; a step for each of a few, which a
+/// procedure may want to tell apart.
 Procedure stepsOfNodes(const Procedure& procedure) {
   std::map<std::string, std::vector<std::size_t>> nodes;
   for (std::size_t i = 0; i < procedure.model->parts.size(); ++i) {
@@ -52,13 +54,42 @@ Procedure stepsOfNodes(const Procedure& procedure) {
   }
   Procedure drawn = procedure;
   drawn.steps.clear();
-  for (const auto& [name, parts] : nodes) {
-    procedure::StepText text{.title = name, .body = {}, .question = {}, .pictures = {}};
-    if (parts.size() > 1) text.body = fmt::format("×{}", parts.size());
+  const auto add = [&](const std::string& name, const std::vector<std::size_t>& parts,
+                       const std::string& count) {
+    procedure::StepText text{.title = name, .body = count, .question = {}, .pictures = {}};
     drawn.steps.push_back(
         {.id = name, .parts = parts, .text = {{procedure.languages.front(), std::move(text)}}});
+  };
+  constexpr std::size_t kFew = 4;
+  for (const auto& [name, parts] : nodes) {
+    if (parts.size() == 1 || parts.size() > kFew) {
+      add(name, parts, parts.size() > 1 ? fmt::format("×{}", parts.size()) : "");
+      continue;
+    }
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      add(fmt::format("{}#{}", name, i + 1), {parts[i]},
+          fmt::format("{} / {}: {}", i + 1, parts.size(), name));
+    }
   }
   return drawn;
+}
+
+/// The step's movie, as its first frame, and the pictures of its text.
+std::vector<hal::Image> illustrationsOf(const Procedure& procedure, std::size_t step,
+                                        const std::string& language,
+                                        const std::filesystem::path& folder) {
+  std::vector<hal::Image> all;
+  if (const auto& movie = procedure.steps[step].movie) {
+    if (auto poster = moviePoster(folder / movie->file, kIllustrationRows)) {
+      all.push_back(*std::move(poster));
+    }
+  }
+  for (const procedure::StepPicture& each : procedure.text(step, language).pictures) {
+    const auto picture = hal::readPictureRgb(folder / each.file);
+    if (!picture) continue;  // it was there when the procedure was read
+    all.push_back(scaledRgb(picture->view(), sizeOfRows(picture->size(), kIllustrationRows)));
+  }
+  return all;
 }
 
 /// As many columns as let the sheet be no higher than an image may be.
@@ -107,7 +138,9 @@ int previewProcedure(const ProcedurePreviewOptions& options) {
     const hal::Image picture = pictures.draw(i, off);
     off.insert(step.removes.begin(), step.removes.end());
     tiles.push_back(
-        {.image = stepTile(procedure, i, language, picture, textRows), .label = step.id});
+        {.image = stepTile(procedure, i, language, picture,
+                           illustrationsOf(procedure, i, language, options.folder), textRows),
+         .label = step.id});
     progress.advance();
   }
   const hal::Image sheet = present::labelledSheet(tiles, columns);

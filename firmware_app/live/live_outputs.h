@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "firmware_app/live/live_job.h"
-#include "firmware_app/live/live_reporter.h"
-#include "firmware_app/live/presentation_watch.h"
-#include "firmware_app/live/screens.h"
+#include "firmware_app/live/screens/screens.h"
+#include "firmware_app/live/status/live_reporter.h"
+#include "firmware_app/live/status/presentation_watch.h"
 #include "hal/camera.h"
 #include "hal/output.h"
 #include "hal/outputs/window/window.h"

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
+#include "firmware_app/live/interaction/live_input.h"
 #include "firmware_app/live/live_controls.h"
-#include "firmware_app/live/live_input.h"
 #include "firmware_app/live/snapshot_saver.h"
 #include "hal/error.h"
 

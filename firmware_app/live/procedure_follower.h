@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "firmware_app/live/interaction/live_input.h"
 #include "firmware_app/live/live_controls.h"
-#include "firmware_app/live/live_input.h"
 #include "firmware_app/live/live_job.h"
 #include "firmware_app/repair_station/live_overlay.h"
 #include "firmware_app/repair_station/live_procedure.h"

@@ -6,10 +6,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "firmware_app/overlay/card.h"
+#include "firmware_app/overlay/step_movie.h"
 #include "hal/media/picture_file.h"
 #include "pipeline/overlay/reserved_colours.h"
 #include "pipeline/procedure/words.h"
@@ -102,14 +101,7 @@ std::optional<hal::Image> pictureOf(const procedure::StepText& text,
   if (text.pictures.empty()) return std::nullopt;
   const auto read = hal::readPictureRgb(folder / text.pictures.front().file);
   if (!read) return std::nullopt;
-  const hal::FrameSize size = read->size();
-  const hal::FrameSize small{std::max(1, size.width * height / std::max(1, size.height)), height};
-  hal::Image source = *read;
-  const cv::Mat from(size.height, size.width, CV_8UC3, source.plane(0).data());
-  hal::Image scaled({.pixelFormat = hal::PixelFormat::kRgb8, .size = small});
-  cv::Mat to(small.height, small.width, CV_8UC3, scaled.plane(0).data());
-  cv::resize(from, to, to.size(), 0.0, 0.0, cv::INTER_AREA);
-  return scaled;
+  return scaledRgb(read->view(), sizeOfRows(read->size(), height));
 }
 
 Column mainColumn(const StepShown& shown, int x, int width, const Measures& m) {
@@ -156,40 +148,24 @@ Column sideColumn(const StepShown& shown, int x, int width, const Measures& m) {
 
 /// A panel, and how high it would be with all of its text.
 struct Panel {
-  hal::Image image;
+  InstructionPanel panel;
   int wholeHeight = 0;
 };
 
-Panel panelOf(const StepShown& shown, const std::filesystem::path& folder, hal::FrameSize output,
-              const Measures& m) {
+/// A line over the whole width.
+struct Bar {
+  hal::Image ink;
+  Rgb colour, ground;
+};
+
+std::vector<Bar> barsOf(const StepShown& shown, int width, const Measures& m) {
   const Procedure& procedure = *shown.procedure;
   const procedure::Words& words = procedure::wordsIn(shown.language);
-  const bool isEnd = shown.step == procedure::kEnd;
-  const int margin = m.px(9);
-  const std::string number =
-      isEnd ? "" : fmt::format("{}/{}", shown.step + 1, procedure.steps.size());
-  const hal::Image numberInk = inkOfText(number, m.px(19), output.width, "Sans Bold");
-  const int numberWidth = isEnd ? 0 : numberInk.size().width + m.px(14);
-  const int sideWidth = 31 * output.width / 100;
-  const int left = margin + numberWidth + (isEnd ? 0 : m.px(8));
-  const std::optional<hal::Image> picture =
-      isEnd ? std::nullopt
-            : pictureOf(procedure.text(shown.step, shown.language), folder, m.px(84));
-  const int pictureWidth = picture ? picture->size().width + margin : 0;
-  const int sideX = output.width - sideWidth - margin;
-  const Column text = mainColumn(shown, left, std::max(1, sideX - pictureWidth - left - margin), m);
-  const Column side = sideColumn(shown, sideX, sideWidth, m);
-
-  struct Bar {
-    hal::Image ink;
-    Rgb colour, ground;
-  };
   std::vector<Bar> bars;
   const auto addBar = [&](const std::string& line, const Rgb& colour, const Rgb& ground) {
-    bars.push_back(
-        {inkOfText(line, m.px(16), output.width - 2 * margin, "Sans Bold"), colour, ground});
+    bars.push_back({inkOfText(line, m.px(16), width, "Sans Bold"), colour, ground});
   };
-  if (!isEnd) {
+  if (shown.step != procedure::kEnd) {
     for (const std::size_t each : procedure.steps[shown.step].warnings) {
       const procedure::Warning& warning = procedure.warnings[each];
       const auto [ink, ground] = inkAndGroundOf(warning.level);
@@ -199,11 +175,41 @@ Panel panelOf(const StepShown& shown, const std::filesystem::path& folder, hal::
     }
   }
   if (!shown.notice.empty()) addBar(shown.notice, kBlack, kAmber);
+  return bars;
+}
+
+Panel panelOf(const StepShown& shown, const std::filesystem::path& folder, hal::FrameSize output,
+              const Measures& m) {
+  const Procedure& procedure = *shown.procedure;
+  const bool isEnd = shown.step == procedure::kEnd;
+  const int margin = m.px(9);
+  const std::vector<Bar> bars = barsOf(shown, output.width - 2 * margin, m);
   int barsHeight = 0;
   for (const Bar& bar : bars) barsHeight += bar.ink.size().height + m.px(6);
 
-  const int body = std::max({text.height(m), side.height(m), numberInk.size().height + m.px(8),
-                             picture ? picture->size().height : 0});
+  const std::string number =
+      isEnd ? "" : fmt::format("{}/{}", shown.step + 1, procedure.steps.size());
+  const hal::Image numberInk = inkOfText(number, m.px(19), output.width, "Sans Bold");
+  const int numberWidth = isEnd ? 0 : numberInk.size().width + m.px(14);
+  const int sideWidth = 31 * output.width / 100;
+  const int left = margin + numberWidth + (isEnd ? 0 : m.px(8));
+  const int pictureRows = std::min(m.px(84), mostHeight(output) - barsHeight - 2 * margin);
+  std::optional<hal::Image> picture;
+  hal::FrameSize pictureSize;
+  const bool hasMovie = !isEnd && procedure.steps[shown.step].movie && pictureRows > 0;
+  if (hasMovie) {
+    pictureSize = sizeOfRows(procedure.steps[shown.step].movie->size, pictureRows);
+  } else if (!isEnd && pictureRows > 0) {
+    picture = pictureOf(procedure.text(shown.step, shown.language), folder, pictureRows);
+    if (picture) pictureSize = picture->size();
+  }
+  const int pictureWidth = pictureSize.width == 0 ? 0 : pictureSize.width + margin;
+  const int sideX = output.width - sideWidth - margin;
+  const Column text = mainColumn(shown, left, std::max(1, sideX - pictureWidth - left - margin), m);
+  const Column side = sideColumn(shown, sideX, sideWidth, m);
+
+  const int body = std::max(
+      {text.height(m), side.height(m), numberInk.size().height + m.px(8), pictureSize.height});
   const int wholeHeight = barsHeight + body + 2 * margin;
   const int height = std::min(wholeHeight, mostHeight(output));
   Card card({output.width, height});
@@ -222,21 +228,27 @@ Panel panelOf(const StepShown& shown, const std::filesystem::path& folder, hal::
     card.ink(numberInk, margin + m.px(7), top + m.px(3), kWhite);
   }
   drawColumn(card, text, top, m);
-  if (picture) card.paste(*picture, sideX - pictureWidth, top);
+  const CardArea place{sideX - pictureWidth, top, pictureSize.width, pictureSize.height};
+  if (picture) card.paste(*picture, place.x, place.y);
+  if (hasMovie) card.fill(place, kBlack, 255);
   drawColumn(card, side, top, m);
-  return {card.take(), wholeHeight};
+  Panel panel{.panel = {.image = card.take(), .movie = {}}, .wholeHeight = wholeHeight};
+  if (hasMovie) {
+    panel.panel.movie = overlay::MoviePlace{.topLeft = {place.x, place.y}, .size = pictureSize};
+  }
+  return panel;
 }
 
 }  // namespace
 
-hal::Image instructionPanel(const StepShown& shown, const std::filesystem::path& folder,
-                            hal::FrameSize output) {
+InstructionPanel instructionPanel(const StepShown& shown, const std::filesystem::path& folder,
+                                  hal::FrameSize output) {
   Panel panel;
   for (const double share : {1.0, 0.9, 0.8, 0.7}) {  // a long text in smaller letters
     panel = panelOf(shown, folder, output, Measures(output.width, share));
     if (panel.wholeHeight <= mostHeight(output)) break;
   }
-  return std::move(panel.image);
+  return std::move(panel.panel);
 }
 
 hal::Image stepMarker(const std::string& number, const std::string& text, int outputWidth) {

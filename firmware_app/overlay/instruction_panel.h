@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "firmware_app/overlay/step_content.h"
@@ -8,12 +9,17 @@
 
 namespace pleinair::app {
 
+struct InstructionPanel {
+  hal::Image image;
+  std::optional<overlay::MoviePlace> movie;  ///< where the step has one; dark in the image
+};
+
 /// The instruction of a step as a strip as wide as the output: warnings, number and title, text,
-/// picture, tools, torque, and what is asked for. Not higher than two fifths of the output: a
-/// long text is set in smaller letters, by up to 30 %, and then cut. Any thread; all as
+/// movie or picture, tools, torque, and what is asked for. Not higher than two fifths of the
+/// output: a long text is set in smaller letters, by up to 30 %, and then cut. Any thread; all as
 /// OverlayContent has its pictures.
-hal::Image instructionPanel(const StepShown& shown, const std::filesystem::path& folder,
-                            hal::FrameSize output);
+InstructionPanel instructionPanel(const StepShown& shown, const std::filesystem::path& folder,
+                                  hal::FrameSize output);
 /// The number of a step, and a short text beside it.
 hal::Image stepMarker(const std::string& number, const std::string& text, int outputWidth);
 /// Why nothing is shown on the machine.

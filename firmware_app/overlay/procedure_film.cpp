@@ -104,6 +104,7 @@ std::shared_ptr<const overlay::OverlayContent> ProcedureFilm::at(hal::Duration t
     auto content = stepContent(steps_[index], *model_, options_.folder, output,
                                stepInset(steps_[index], *model_, output.width));
     content.showsInset = options_.showsInset;
+    content.movie = stepMovie(steps_[index], options_.folder, content.moviePlace);
     content_ = std::make_shared<const overlay::OverlayContent>(std::move(content));
     shown_ = index;
   }

@@ -10,6 +10,7 @@
 #include "firmware_app/overlay/doubt_words.h"
 #include "firmware_app/overlay/instruction_panel.h"
 #include "firmware_app/overlay/model_picture.h"
+#include "firmware_app/overlay/step_movie.h"
 #include "firmware_app/procedure/step_arrows.h"
 #include "pipeline/overlay/part_shape.h"
 #include "pipeline/procedure/words.h"
@@ -118,7 +119,9 @@ OverlayContent stepContent(const StepShown& shown, const scene::Model& machine,
   OverlayContent content;
   addParts(shown, machine, content);
   addLabel(shown, output.width, content);
-  content.panel = instructionPanel(shown, folder, output);
+  InstructionPanel panel = instructionPanel(shown, folder, output);
+  content.panel = std::move(panel.image);
+  content.moviePlace = panel.movie.value_or(overlay::MoviePlace{});
   content.inset = std::move(inset);
   for (std::size_t i = 0; i < overlay::kDoubts; ++i) {
     const std::string text(wordsOf(static_cast<overlay::Doubt>(i), shown.language));
@@ -132,6 +135,14 @@ hal::Image stepInset(const StepShown& shown, const scene::Model& machine, int ou
   addParts(shown, machine, content);
   return modelPicture(machine, content.looks, content.ghosts, content.arrows,
                       insetSize(outputWidth), shown.procedure->uprightFromModel);
+}
+
+std::shared_ptr<const overlay::PanelMovie> stepMovie(const StepShown& shown,
+                                                     const std::filesystem::path& folder,
+                                                     const overlay::MoviePlace& place,
+                                                     const std::stop_token& stop) {
+  if (place.size.width == 0) return nullptr;
+  return readStepMovie(folder / shown.procedure->steps[shown.step].movie->file, place.size, stop);
 }
 
 hal::Image blankInset(int outputWidth) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <set>
+#include <stop_token>
 #include <string>
 
 #include "hal/image.h"
@@ -25,8 +26,8 @@ struct StepShown {
 
 /// The overlay of a step, for pictures of the size `output`: looks and ghosts of its parts, arrows,
 /// a label, the instruction, and the inset `inset`: stepInset(), or blankInset() until that is
-/// made. `machine`: the model of the scene that the procedure is about, with the procedure's parts
-/// (machineIn()). Any thread.
+/// made. A movie is not in it, but its place in the panel (0 × 0: none). `machine`: the model of
+/// the scene that the procedure is about, with the procedure's parts (machineIn()). Any thread.
 overlay::OverlayContent stepContent(const StepShown& shown, const scene::Model& machine,
                                     const std::filesystem::path& folder, hal::FrameSize output,
                                     hal::Image inset);
@@ -34,6 +35,12 @@ overlay::OverlayContent stepContent(const StepShown& shown, const scene::Model& 
 /// The step drawn from the model, without a camera, for pictures that are so wide: RGBA8. It takes
 /// some 0.1 s, many times what all else of the content does. Any thread.
 hal::Image stepInset(const StepShown& shown, const scene::Model& machine, int outputWidth);
+/// The step's movie for its place in a content of the step; null where it has none, or none that
+/// can be read, or where `stop` was requested. It may take longer than the inset. Any thread.
+std::shared_ptr<const overlay::PanelMovie> stepMovie(const StepShown& shown,
+                                                     const std::filesystem::path& folder,
+                                                     const overlay::MoviePlace& place,
+                                                     const std::stop_token& stop = {});
 /// Nothing, in the size of stepInset(): its place is kept clear.
 hal::Image blankInset(int outputWidth);
 

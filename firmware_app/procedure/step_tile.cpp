@@ -142,6 +142,16 @@ void drawInk(hal::Image& image, const hal::Image& ink, int top, const TextBlock&
   }
 }
 
+void paste(hal::Image& image, const hal::Image& picture, int left, int top) {
+  const std::size_t columns =
+      static_cast<std::size_t>(std::clamp(image.size().width - left, 0, picture.size().width));
+  for (int y = 0; y < picture.size().height && top + y < image.size().height; ++y) {
+    const auto from = picture.view().row(0, y).first(3 * columns);
+    const auto row = image.row(0, top + y);
+    if (columns > 0) std::ranges::copy(from, row.begin() + 3 * left);
+  }
+}
+
 }  // namespace
 
 int stepTextRows(const Procedure& procedure, std::size_t step, const std::string& language,
@@ -150,11 +160,14 @@ int stepTextRows(const Procedure& procedure, std::size_t step, const std::string
   for (const TextBlock& block : blocksOf(procedure, step, language)) {
     rows += inkOf(block, width).size().height + 2 * kGapPx;
   }
-  return rows;
+  const bool hasAny =
+      procedure.steps[step].movie || !procedure.text(step, language).pictures.empty();
+  return rows + (hasAny ? kIllustrationRows + 2 * kGapPx : 0);
 }
 
 hal::Image stepTile(const Procedure& procedure, std::size_t step, const std::string& language,
-                    const hal::Image& picture, int textRows) {
+                    const hal::Image& picture, std::span<const hal::Image> illustrations,
+                    int textRows) {
   const hal::FrameSize size = picture.size();
   hal::Image tile(
       {.pixelFormat = hal::PixelFormat::kRgb8, .size = {size.width, size.height + textRows}});
@@ -169,6 +182,11 @@ hal::Image stepTile(const Procedure& procedure, std::size_t step, const std::str
     if (block.ground != kWhite) fill(tile, top - 2, bottom - 1, block.ground);
     drawInk(tile, ink, top, block);
     top = bottom + kGapPx;
+  }
+  int left = kMarginPx;
+  for (const hal::Image& each : illustrations) {
+    paste(tile, each, left, top);
+    left += each.size().width + kMarginPx;
   }
   return tile;
 }

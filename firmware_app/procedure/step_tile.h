@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "hal/image.h"
@@ -7,13 +8,18 @@
 
 namespace pleinair::app {
 
-/// A picture with a step's text below: number and title, warnings, text, tools, torque, the check
-/// with its limits, and where each outcome leads. RGB8, as wide as the picture, `textRows` px
-/// higher; what does not fit is cut.
-hal::Image stepTile(const procedure::Procedure& procedure, std::size_t step,
-                    const std::string& language, const hal::Image& picture, int textRows);
+/// The rows of illustrations on a tile.
+inline constexpr int kIllustrationRows = 96;
 
-/// The rows that the step's text needs below a picture of this width.
+/// A picture with a step's text below: number and title, warnings, text, tools, torque, the check
+/// with its limits, and where each outcome leads; and below the text the illustrations, side by
+/// side, RGB8 of kIllustrationRows. RGB8, as wide as the picture, `textRows` px higher; what does
+/// not fit is cut.
+hal::Image stepTile(const procedure::Procedure& procedure, std::size_t step,
+                    const std::string& language, const hal::Image& picture,
+                    std::span<const hal::Image> illustrations, int textRows);
+
+/// The rows that the step's text and its illustrations, if any, need below a picture of this width.
 int stepTextRows(const procedure::Procedure& procedure, std::size_t step,
                  const std::string& language, int width);
 

@@ -54,21 +54,66 @@ const std::string& LiveOverlay::Passing::at(hal::TimePoint now) {
   return text;
 }
 
-/// Whether the inset of the step was drawn.
-bool LiveOverlay::isDrawn(const StepShown& shown) const {
-  return !drawing_.valid() && drawn_ && isSameStep(*drawn_, shown);
+template <class T>
+bool LiveOverlay::Late<T>::isFor(const StepShown& shown) const {
+  return !making.valid() && of && isSameStep(*of, shown);
+}
+
+template <class T>
+bool LiveOverlay::Late<T>::isToBeMadeFor(const StepShown& shown) const {
+  return !making.valid() && !(of && isSameStep(*of, shown));
+}
+
+template <class T>
+void LiveOverlay::Late<T>::take() {
+  if (isReady(making)) made = making.get();
+}
+
+LiveOverlay::~LiveOverlay() {
+  movieEnds_.request_stop();
 }
 
 /// Takes what the threads have made. Returns whether that is another content.
 bool LiveOverlay::takeMade() {
   const bool isMade = isReady(making_);
   if (isMade) content_ = making_.get();
-  if (isReady(drawing_)) inset_ = drawing_.get();
-  if (hasInset_ || making_.valid() || !isDrawn(last_)) return isMade;
+  inset_.take();
+  movie_.take();
+  // An instruction comes first and alone, also where the rest is there already.
+  if (isMade || making_.valid()) return isMade;
+  const bool takesInset = !hasInset_ && inset_.isFor(last_);
+  const bool takesMovie = !hasMovie_ && movie_.isFor(last_);
+  if (takesInset) hasInset_ = true;
+  if (takesMovie) hasMovie_ = true;
+  if (!takesInset && !(takesMovie && movie_.made)) return false;
   auto whole = std::make_shared<overlay::OverlayContent>(*content_);
-  whole->inset = inset_;
+  if (takesInset) whole->inset = inset_.made;
+  if (takesMovie) whole->movie = movie_.made;
   content_ = std::move(whole);
-  return hasInset_ = true;
+  return true;
+}
+
+/// Begins what the last step lacks.
+void LiveOverlay::makeLate() {
+  if (inset_.isToBeMadeFor(last_)) {
+    inset_.of = last_;
+    inset_.making = std::async(std::launch::async, [this, step = last_] { return draw(step); });
+  }
+  // One of a step that has passed is not decoded to its end.
+  if (movie_.making.valid() && movie_.of && !isSameStep(*movie_.of, last_)) {
+    movieEnds_.request_stop();
+    movie_.of.reset();
+  }
+  // Its place is known once the instruction is made.
+  if (making_.valid() || !movie_.isToBeMadeFor(last_)) return;
+  movie_.of = last_;
+  movie_.made = nullptr;
+  if (content_->moviePlace.size.width == 0) return;
+  movieEnds_ = std::stop_source();
+  movie_.making = std::async(std::launch::async, [this, step = last_, place = content_->moviePlace,
+                                                  stop = movieEnds_.get_token()] {
+    return stepMovie(step, folder_, place, stop);
+  });
 }
 
 std::shared_ptr<const overlay::OverlayContent> LiveOverlay::update(StepShown shown,
@@ -78,26 +123,25 @@ std::shared_ptr<const overlay::OverlayContent> LiveOverlay::update(StepShown sho
   shown.notice = failure + (failure.empty() || notice.empty() ? "" : "\n") + notice;
   if (!content_) {
     last_ = std::move(shown);
-    drawn_ = last_;
-    inset_ = draw(last_);
+    inset_.of = last_;
+    inset_.made = draw(last_);
     hasInset_ = true;
-    return content_ = make(last_, inset_);
+    content_ = make(last_, inset_.made, nullptr);
+    makeLate();
+    return content_;
   }
   const bool isNew = takeMade();
   // A change that comes meanwhile waits: the newest state is made next, not those in between.
   if (!making_.valid() && !isSame(last_, shown)) {
     last_ = std::move(shown);
-    hasInset_ = isDrawn(last_);
-    making_ =
-        std::async(std::launch::async,
-                   [this, step = last_, inset = hasInset_ ? inset_ : blankInset(output_.width)] {
-                     return make(step, inset);
-                   });
+    hasInset_ = inset_.isFor(last_);
+    hasMovie_ = movie_.isFor(last_);
+    making_ = std::async(
+        std::launch::async,
+        [this, step = last_, inset = hasInset_ ? inset_.made : blankInset(output_.width),
+         movie = hasMovie_ ? movie_.made : nullptr] { return make(step, inset, movie); });
   }
-  if (!drawing_.valid() && !isSameStep(*drawn_, last_)) {
-    drawn_ = last_;
-    drawing_ = std::async(std::launch::async, [this, step = last_] { return draw(step); });
-  }
+  makeLate();
   return isNew ? content_ : nullptr;
 }
 
@@ -107,9 +151,11 @@ hal::Image LiveOverlay::draw(const StepShown& shown) const {
 }
 
 /// Any thread.
-LiveOverlay::Content LiveOverlay::make(const StepShown& shown, hal::Image inset) const {
+LiveOverlay::Content LiveOverlay::make(const StepShown& shown, hal::Image inset,
+                                       Movie movie) const {
   const scene::Model& parts = *shown.procedure->model;
   overlay::OverlayContent content = stepContent(shown, parts, folder_, output_, std::move(inset));
+  content.movie = std::move(movie);
   content.showsInset = showsInset_;
   content.cards = cards_;
   if (machine_ != nullptr && !hasSameParts(*machine_, parts)) {

@@ -4,6 +4,7 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -17,13 +18,17 @@
 namespace pleinair::app {
 
 /// Makes the overlay of a procedure's current step when it changes, on threads of its own: the
-/// instruction and the marks at once, and the inset, which takes longer, after them. Main thread.
+/// instruction and the marks at once, and the inset and the movie, which take longer, after them.
+/// Main thread.
 class LiveOverlay {
  public:
   /// `machine`: the scene's model, which outlives this; null: there is none. `output`: size of the
   /// pictures. `cards`: ids of command cards.
   LiveOverlay(const scene::Model* machine, std::filesystem::path folder, hal::FrameSize output,
               bool showsInset, std::vector<int> cards);
+  ~LiveOverlay();
+  LiveOverlay(const LiveOverlay&) = delete;
+  LiveOverlay& operator=(const LiveOverlay&) = delete;
 
   /// Shows a text for some seconds, in place of the last one: a check that failed.
   void notify(const std::string& text, hal::TimePoint now);
@@ -31,15 +36,29 @@ class LiveOverlay {
   void notifyFailure(const std::string& text, hal::TimePoint now);
   /// The overlay, once it is made, if it is another one than that of the last call; else null. A
   /// new step comes without its inset first, whose place stays clear, and with it some 0.1 s later;
-  /// of a new text the inset is the one before. The first call waits for all of it.
+  /// its movie comes once it is decoded. Of a new text both are those before. The first call waits
+  /// for all but the movie.
   std::shared_ptr<const overlay::OverlayContent> update(StepShown shown, hal::TimePoint now);
 
  private:
   using Content = std::shared_ptr<const overlay::OverlayContent>;
-  Content make(const StepShown& shown, hal::Image inset) const;
+  using Movie = std::shared_ptr<const overlay::PanelMovie>;
+
+  /// What comes later than a step's instruction.
+  template <class T>
+  struct Late {
+    std::optional<StepShown> of;  ///< the step that it was made for last, or is being made for
+    T made{};
+    std::future<T> making;  ///< the last member: its thread may use others of this class
+    bool isFor(const StepShown& shown) const;
+    bool isToBeMadeFor(const StepShown& shown) const;
+    void take();
+  };
+
+  Content make(const StepShown& shown, hal::Image inset, Movie movie) const;
   hal::Image draw(const StepShown& shown) const;
-  bool isDrawn(const StepShown& shown) const;
   bool takeMade();
+  void makeLate();
 
   const scene::Model* machine_;
   std::filesystem::path folder_;
@@ -48,9 +67,8 @@ class LiveOverlay {
   std::vector<int> cards_;
   StepShown last_;  ///< that was made, or is being made
   Content content_;
-  bool hasInset_ = false;           ///< the content that was made last, or is being made
-  std::optional<StepShown> drawn_;  ///< whose inset was drawn last, or is being drawn
-  hal::Image inset_;
+  bool hasInset_ = false;  ///< the content that was made last, or is being made
+  bool hasMovie_ = false;  ///< the same: also where the step has none
   struct Passing {
     std::string text;
     hal::TimePoint ends;
@@ -60,7 +78,9 @@ class LiveOverlay {
   Passing failure_;
   // The last members: they use others.
   std::future<Content> making_;
-  std::future<hal::Image> drawing_;
+  Late<hal::Image> inset_;
+  std::stop_source movieEnds_;
+  Late<Movie> movie_;
 };
 
 }  // namespace pleinair::app

@@ -2,11 +2,14 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <string_view>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "hal/clock.h"
 #include "hal/image.h"
 
 namespace pleinair::overlay {
@@ -43,6 +46,22 @@ struct Label {
   std::vector<std::size_t> parts;
 };
 
+/// A short movie that plays again and again, all of it in memory.
+struct PanelMovie {
+  struct Frame {
+    hal::Duration begins{0};  ///< of the movie; that of the first is 0, and they rise
+    hal::Image image;         ///< RGB8, all of one size
+  };
+  std::vector<Frame> frames;  ///< at least one
+  hal::Duration length{0};    ///< until it begins again; more than the last frame's
+};
+
+/// Where a movie is drawn: px of the panel. Frames of another size are scaled.
+struct MoviePlace {
+  glm::ivec2 topLeft{0};
+  hal::FrameSize size;
+};
+
 /// Why the overlay is not to be trusted.
 enum class Doubt {
   kNone,
@@ -64,7 +83,9 @@ struct OverlayContent {
   std::vector<Ghost> ghosts;
   std::vector<Arrow> arrows;
   std::vector<Label> labels;
-  hal::Image panel;  ///< the instruction; at the lower or upper edge
+  hal::Image panel;                         ///< the instruction; at the lower or upper edge
+  std::shared_ptr<const PanelMovie> movie;  ///< over the panel; null: none
+  MoviePlace moviePlace;
   hal::Image inset;  ///< the step drawn from the model, where nothing else is sure
   std::array<hal::Image, kDoubts> badges;  ///< by Doubt: why there is nothing on the machine
   bool showsInset = false;                 ///< always, not only in doubt

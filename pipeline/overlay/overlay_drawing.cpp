@@ -99,14 +99,19 @@ void OverlayDrawing::drawLines(const gpu::RenderTarget& target, std::span<const 
 
 void OverlayDrawing::drawSprite(const gpu::RenderTarget& target, const Sprite& sprite,
                                 glm::ivec2 topLeft, float opacity) {
-  if (!sprite || opacity <= 0.0F) return;
+  if (sprite) drawTexture(target, sprite.texture(), topLeft, sprite.size(), opacity);
+}
+
+void OverlayDrawing::drawTexture(const gpu::RenderTarget& target, const gpu::Texture& picture,
+                                 glm::ivec2 topLeft, hal::FrameSize size, float opacity) {
+  if (opacity <= 0.0F) return;
   target.beginKeeping();
   sprite_.use()
       .set("origin", glm::vec2(topLeft))
-      .set("size", glm::vec2(sprite.size().width, sprite.size().height))
+      .set("size", glm::vec2(size.width, size.height))
       .set("outputSize", sizeOf(target))
       .set("opacity", opacity)
-      .texture("picture", sprite.texture());
+      .texture("picture", picture);
   beginBlending();
   glBindVertexArray(emptyArray_.get());
   const gpu::PassTimer::Scope scope = sprite_.measure();

@@ -41,6 +41,9 @@ class OverlayDrawing {
                  float opacity);
   void drawSprite(const gpu::RenderTarget& target, const Sprite& sprite, glm::ivec2 topLeft,
                   float opacity);
+  /// Scaled to that size.
+  void drawTexture(const gpu::RenderTarget& target, const gpu::Texture& picture, glm::ivec2 topLeft,
+                   hal::FrameSize size, float opacity);
 
  private:
   struct LineVertex {

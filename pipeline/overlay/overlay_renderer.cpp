@@ -70,6 +70,7 @@ bool OverlayRenderer::take(const std::shared_ptr<const OverlayContent>& content)
       content->ghosts == content_->ghosts && content->arrows == content_->arrows &&
       std::ranges::equal(content->labels, content_->labels, {}, &Label::parts, &Label::parts);
   content_ = content;
+  movie_.take(content_ ? content_->movie : nullptr);
   std::ranges::fill(hidden_, std::uint8_t{0});
   if (!content_) return true;
   assert(!machine_ || content_->looks.empty() || content_->looks.size() == shapes_.size());
@@ -247,7 +248,7 @@ const gpu::Texture& OverlayRenderer::draw(const OverlayFrame& frame) {
     layout_.reset();
     placed_ = {};
   }
-  drawPanels();
+  drawPanels(now);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   return output_;
 }
@@ -339,10 +340,15 @@ void OverlayRenderer::drawLabels(const OverlayFrame& frame) {
   }
 }
 
-void OverlayRenderer::drawPanels() {
+void OverlayRenderer::drawPanels(hal::TimePoint now) {
   if (panel_) {
-    const int top = isPanelBelow_ ? size_.height - panel_.size().height : 0;
-    drawing_.drawSprite(target_, panel_, {(size_.width - panel_.size().width) / 2, top}, 1.0F);
+    const glm::ivec2 corner{(size_.width - panel_.size().width) / 2,
+                            isPanelBelow_ ? size_.height - panel_.size().height : 0};
+    drawing_.drawSprite(target_, panel_, corner, 1.0F);
+    if (movie_) {
+      const MoviePlace& place = content_->moviePlace;
+      drawing_.drawTexture(target_, movie_.at(now), corner + place.topLeft, place.size, 1.0F);
+    }
   }
   if (!state_.trust.standsIn && !content_->showsInset && !isSmall_) return;
   const glm::ivec2 place = insetPlace();

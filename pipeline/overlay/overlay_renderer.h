@@ -18,6 +18,7 @@
 #include "pipeline/overlay/figure_drawer.h"
 #include "pipeline/overlay/label_layout.h"
 #include "pipeline/overlay/line_shapes.h"
+#include "pipeline/overlay/movie_player.h"
 #include "pipeline/overlay/other_machine.h"
 #include "pipeline/overlay/overlay_content.h"
 #include "pipeline/overlay/overlay_drawing.h"
@@ -89,7 +90,7 @@ class OverlayRenderer {
   glm::ivec2 insetPlace() const;
   void drawMarks(const OverlayFrame& frame);
   void drawLabels(const OverlayFrame& frame);
-  void drawPanels();
+  void drawPanels(hal::TimePoint now);
   float phaseAt(hal::TimePoint now) const;
 
   const scene::Scene& scene_;
@@ -119,6 +120,7 @@ class OverlayRenderer {
   std::vector<PxBox> keepClear_;
   std::span<const PlacedLabel> placed_;
   Sprite panel_, inset_;
+  MoviePlayer movie_;
   std::array<Sprite, kDoubts> badges_;
   std::optional<PxBox> marked_;  // around all that is marked, in this frame
   std::optional<PxBox> ghosts_;  // where they go to, or come from

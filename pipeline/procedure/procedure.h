@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <limits>
 #include <map>
@@ -12,6 +13,7 @@
 
 #include <glm/mat3x3.hpp>
 
+#include "hal/pixel_format.h"
 #include "pipeline/scene/description/model_source.h"
 #include "pipeline/scene/models/model.h"
 
@@ -87,6 +89,14 @@ struct StepPicture {
   std::string caption;
 };
 
+/// A movie of a step, without sound, that plays again and again.
+struct StepMovie {
+  std::string file;     ///< in the procedure's folder
+  hal::FrameSize size;  ///< upright, with square pixels
+};
+/// The longest movie that is taken: all of it is in memory while its step is shown.
+inline constexpr std::chrono::seconds kMostMovie{15};
+
 /// A step in one language.
 struct StepText {
   std::string title;
@@ -109,6 +119,7 @@ struct Step {
   /// An exploded view: parts that are also shown at a distance along their own z axis (metres).
   std::vector<std::pair<std::size_t, double>> apart;
   std::optional<Torque> torque;
+  std::optional<StepMovie> movie;
   std::optional<Check> check;
   /// The next step (index, or kEnd) by outcome. An outcome that is missing keeps the step.
   std::map<Outcome, std::size_t> next;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "pipeline/procedure/instruction_text.h"
 #include "pipeline/procedure/step_graph.h"
 #include "pipeline/procedure/step_table.h"
+#include "pipeline/procedure/unknown_keys.h"
 #include "pipeline/scene/description/scene_values.h"
 
 namespace pleinair::procedure {
@@ -50,10 +52,12 @@ class ProcedureReader {
     bool isSound = tryTo([&] { readHead(root); });
     if (reading_.procedure.languages.empty()) return;  // the rest would be about languages only
     isSound = tryTo([&] { readModel(root.table("model")); }) && isSound;
+    if (reading_.procedure.model) tryTo([&] { root.table("model").finish(); });
     isSound = readNames(root) && isSound;
     isSound = readSteps(root) && isSound;
-    // After a mistake, keys that were not asked for need not be unknown ones.
-    if (isSound) tryTo([&] { root.finish(); });
+    static const std::vector<std::string> kKeys{"languages", "model",   "name",    "step",
+                                                "tools",     "version", "warnings"};
+    std::ranges::move(unknownKeys(root, kKeys), std::back_inserter(reading_.faults));
     readTexts();
     const bool hasSteps = !reading_.procedure.steps.empty() && isSound;
     if (!hasSteps) return;
@@ -109,6 +113,7 @@ class ProcedureReader {
                   procedure.tools.push_back({.id = id});
                   const bool isRead =
                       tryTo([&] { procedure.tools.back().name = translations(table->table(id)); });
+                  if (isRead) tryTo([&] { table->table(id).finish(); });
                   isSound = isRead && isSound;
                 }
               }) &&
@@ -120,6 +125,7 @@ class ProcedureReader {
                   procedure.warnings.push_back({.id = id});
                   const bool isRead =
                       tryTo([&] { readWarning(table->table(id), procedure.warnings.back()); });
+                  if (isRead) tryTo([&] { table->table(id).finish(); });
                   isSound = isRead && isSound;
                 }
               }) &&
@@ -168,6 +174,10 @@ class ProcedureReader {
       const std::size_t before = reading_.faults.size();
       if (!readStep(tables[i], procedure, i, reading_.faults)) unknownChecks_.insert(i);
       isSound = reading_.faults.size() == before && isSound;
+      std::ranges::move(unknownStepKeys(tables[i]), std::back_inserter(reading_.faults));
+      if (auto& movie = procedure.steps[i].movie) {
+        isSound = tryTo([&] { checkMovie(tables[i], *movie); }) && isSound;
+      }
       const auto& check = procedure.steps[i].check;
       if (!check || check->kind != CheckKind::kCompare) continue;
       isSound = tryTo([&] { checkTemplate(tables[i].table("check"), *check); }) && isSound;
@@ -179,6 +189,13 @@ class ProcedureReader {
   std::string wrongIdOf(const TomlTable& table) const {
     std::string id = table.isString("id") ? table.string("id") : "";
     return reading_.procedure.findStep(id) ? "" : id;
+  }
+
+  void checkMovie(const TomlTable& step, StepMovie& movie) {
+    const auto size = sources_.movie(movie.file);
+    if (!size) throw step.error("movie", size.error().problem, size.error().remedy);
+    movie.size = *size;
+    addFile(movie.file);
   }
 
   void checkTemplate(const TomlTable& table, const Check& check) {

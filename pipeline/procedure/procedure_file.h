@@ -28,6 +28,8 @@ class ProcedureSources {
   virtual hal::Result<std::string> text(const std::string& name) = 0;
   /// Whether a picture file can be shown; the error says why not.
   virtual hal::Result<void> picture(const std::string& name) = 0;
+  /// The size of a movie that can be played; the error says why it cannot.
+  virtual hal::Result<hal::FrameSize> movie(const std::string& name) = 0;
   virtual hal::Result<std::shared_ptr<const scene::Model>> model(
       const scene::ModelSource& source) = 0;
   /// Languages whose texts lie in the folder.
@@ -66,6 +68,7 @@ struct ProcedureReading {
 ///     show = { cover = "tint" }      # plain, focus, tint, outline, hidden, ghost
 ///     apart = { cover = 0.1 }        # also shown that far (metres) along its own z axis
 ///     torque = "20 ± 2 Nm"
+///     movie = "unscrew.mp4"          # without sound, 15 s at most, again and again
 ///     check = { kind = "value", unit = "mm", min = 0.1, max = 0.3 }
 ///     goto = { low = "measure", high = "end" }
 ///     next = "refill"                # default: the next step of the file

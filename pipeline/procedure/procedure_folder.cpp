@@ -7,6 +7,7 @@
 
 #include "config/suggestion.h"
 #include "config/toml_reader.h"
+#include "hal/cameras/recording/movie_frames.h"
 #include "hal/media/picture_file.h"
 #include "pipeline/digest/sha256.h"
 #include "pipeline/procedure/procedure_file.h"
@@ -61,19 +62,40 @@ class ProcedureFolder : public ProcedureSources {
   }
 
   hal::Result<void> picture(const std::string& name) override {
-    if (!isInside(name)) {
-      return tl::unexpected(faultOf(fmt::format("\"{}\" is not in the procedure's folder", name),
-                                    "a picture in the folder"));
-    }
-    std::error_code ignored;
-    if (!fs::exists(folder_ / name, ignored)) {
-      const std::vector<std::string> names = namesIn(folder_);
-      return tl::unexpected(faultOf("there is no picture " + config::foundText(name, names),
-                                    "a picture in the folder"));
-    }
+    if (auto found = find(name, "picture"); !found) return found;
     const auto decoded = hal::readPicture(folder_ / name);
     if (!decoded) return tl::unexpected(faultOf(decoded.error().message(), "a picture"));
     return {};
+  }
+
+  hal::Result<hal::FrameSize> movie(const std::string& name) override {
+    if (auto found = find(name, "movie"); !found) return tl::unexpected(std::move(found.error()));
+    hal::FrameSize size;
+    int frames = 0;
+    const auto begun =
+        hal::forMovieFrames(folder_ / name, {}, [&](const hal::ImageView& rgb, hal::Duration) {
+          size = rgb.format.size;
+          return ++frames < 2;
+        });
+    if (!begun) return tl::unexpected(faultOf(begun.error().message(), "a movie"));
+    if (frames < 2) {
+      return tl::unexpected(faultOf(fmt::format("\"{}\" has a single frame", name),
+                                    "a movie; a picture belongs into the texts: ![caption](file)"));
+    }
+    // Only what is beyond is decoded: most movies have nothing there.
+    bool isTooLong = false;
+    (void)hal::forMovieFrames(folder_ / name, kMostMovie,
+                              [&](const hal::ImageView&, hal::Duration) {
+                                isTooLong = true;
+                                return false;
+                              });
+    if (isTooLong) {
+      return tl::unexpected(
+          faultOf(fmt::format("\"{}\" lasts longer than {} s", name, kMostMovie.count()),
+                  fmt::format("a shorter one: `pleinair render --style none --to {}` cuts it",
+                              kMostMovie.count())));
+    }
+    return size;
   }
 
   hal::Result<std::shared_ptr<const scene::Model>> model(
@@ -118,6 +140,23 @@ class ProcedureFolder : public ProcedureSources {
   fs::path folder() const override { return folder_; }
 
  private:
+  /// `kind`: "picture" or "movie".
+  hal::Result<void> find(const std::string& name, std::string_view kind) const {
+    std::string remedy = fmt::format("a {} in the folder", kind);
+    if (!isInside(name)) {
+      return tl::unexpected(
+          faultOf(fmt::format("\"{}\" is not in the procedure's folder", name), std::move(remedy)));
+    }
+    std::error_code ignored;
+    if (!fs::exists(folder_ / name, ignored)) {
+      const std::vector<std::string> names = namesIn(folder_);
+      return tl::unexpected(
+          faultOf(fmt::format("there is no {} {}", kind, config::foundText(name, names)),
+                  std::move(remedy)));
+    }
+    return {};
+  }
+
   fs::path folder_;
 };
 

@@ -16,8 +16,12 @@ namespace {
 
 /// Nodes that one step is about.
 struct NodeGroup {
-  std::string stem;  ///< "bolt" of bolt_1 and bolt_2; the name of a single node
+  std::string stem;  ///< "bolt" of bolt_1 and bolt_2
+  std::size_t triangles = 0;
   std::vector<std::string> names;
+  bool isFirst = true;  ///< of its stem
+  /// Stands for it: nodes of other shapes may have the stem, too.
+  const std::string& title() const { return isFirst && names.size() > 1 ? stem : names.front(); }
 };
 
 /// "bolt_12" and "bolt.012" without the number.
@@ -32,15 +36,23 @@ std::string stemOf(std::string_view name) {
   return std::string(isNumbered && !stem.empty() ? stem : name);
 }
 
+/// A series is of one shape: CAD programs number different bodies as well ("body_1", "body_2").
 std::vector<NodeGroup> groupsOf(const scene::Model& model) {
   std::vector<NodeGroup> groups;
+  std::set<std::string_view> known;
   for (const scene::ModelPart& part : model.parts) {
+    if (!known.insert(part.name).second) continue;
     const std::string stem = stemOf(part.name);
-    auto group = std::ranges::find(groups, stem, &NodeGroup::stem);
-    if (group == groups.end()) group = groups.insert(groups.end(), {.stem = stem});
-    if (std::ranges::find(group->names, part.name) == group->names.end()) {
-      group->names.push_back(part.name);
+    const auto triangles = static_cast<std::size_t>(part.triangleCount);
+    auto group = std::ranges::find_if(groups, [&](const NodeGroup& each) {
+      return each.stem == stem && each.triangles == triangles;
+    });
+    if (group == groups.end()) {
+      const bool isFirst = std::ranges::find(groups, stem, &NodeGroup::stem) == groups.end();
+      group = groups.insert(
+          groups.end(), {.stem = stem, .triangles = triangles, .names = {}, .isFirst = isFirst});
     }
+    group->names.push_back(part.name);
   }
   return groups;
 }
@@ -83,7 +95,7 @@ std::string idOf(std::string_view text, std::set<std::string>& used) {
 }
 
 std::string titleOf(const NodeGroup& group) {
-  std::string title = group.stem;
+  std::string title = group.title();
   std::ranges::replace(title, '_', ' ');
   std::ranges::replace(title, '\n', ' ');
   return title.find_first_not_of(' ') == std::string::npos ? "part" : title;
@@ -114,7 +126,7 @@ Skeleton skeletonOf(const scene::Model& model, const std::string& name, const st
       continue;
     }
     ++skeleton.steps;
-    const std::string id = idOf(group.stem, used);
+    const std::string id = idOf(group.title(), used);
     std::vector<std::string> parts;
     for (const std::string& each : patternOf(group, model)) parts.push_back(inQuotes(each));
     skeleton.toml +=

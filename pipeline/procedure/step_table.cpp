@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -12,6 +15,7 @@
 
 #include "config/suggestion.h"
 #include "pipeline/procedure/units.h"
+#include "pipeline/procedure/unknown_keys.h"
 
 namespace pleinair::procedure {
 namespace {
@@ -47,7 +51,21 @@ std::vector<std::string> patternsOf(std::span<const std::string> names) {
   return {patterns.begin(), patterns.end()};
 }
 
-/// The parts of that name; "name_*": those whose names begin so.
+/// "piston#2": the second of the parts named "piston"; nothing where it is no such name.
+std::optional<std::size_t> partNumbered(const scene::Model& model, std::string_view name) {
+  const std::size_t sign = name.rfind('#');
+  if (sign == std::string_view::npos) return std::nullopt;
+  std::size_t number = 0;
+  const char* const end = name.data() + name.size();
+  const auto parsed = std::from_chars(name.data() + sign + 1, end, number);
+  if (parsed.ec != std::errc{} || parsed.ptr != end || number == 0) return std::nullopt;
+  for (std::size_t i = 0; i < model.parts.size(); ++i) {
+    if (model.parts[i].name == name.substr(0, sign) && --number == 0) return i;
+  }
+  return std::nullopt;
+}
+
+/// The parts of that name; "name_*": those whose names begin so; "name#2": one of several.
 std::vector<std::size_t> partsNamed(const scene::Model& model, std::string_view name) {
   std::vector<std::size_t> parts;
   const bool isPrefix = name.ends_with('*');
@@ -56,6 +74,8 @@ std::vector<std::size_t> partsNamed(const scene::Model& model, std::string_view 
     const std::string& each = model.parts[i].name;
     if (isPrefix ? each.starts_with(prefix) : each == name) parts.push_back(i);
   }
+  if (!parts.empty()) return parts;
+  if (const auto numbered = partNumbered(model, name)) parts.push_back(*numbered);
   return parts;
 }
 
@@ -283,6 +303,11 @@ bool readStep(const TomlTable& table, Procedure& procedure, std::size_t index,
   tryTo([&] { step.warnings = readReferences(table, "warnings", procedure.warnings); });
   tryTo([&] { readViews(table, procedure, step); });
   tryTo([&] { step.torque = readStepTorque(table); });
+  tryTo([&] {
+    if (auto file = table.optionalString("movie", "a movie in the folder")) {
+      step.movie = StepMovie{.file = *std::move(file), .size = {}};
+    }
+  });
   const bool isCheckKnown = tryTo([&] { step.check = readCheck(table); });
   if (isCheckKnown) tryTo([&] { readNext(table, procedure, index, step); });
   // Without parts of its own, a step shows what it moves.
@@ -290,6 +315,13 @@ bool readStep(const TomlTable& table, Procedure& procedure, std::size_t index,
     std::ranges::set_union(step.removes, step.fits, std::back_inserter(step.parts));
   }
   return isCheckKnown;
+}
+
+std::vector<config::ConfigError> unknownStepKeys(const TomlTable& table) {
+  static const std::vector<std::string> kKeys{"apart",  "check", "fits",   "goto",    "id",
+                                              "motion", "movie", "next",   "parts",   "removes",
+                                              "show",   "tools", "torque", "warnings"};
+  return unknownKeys(table, kKeys);
 }
 
 }  // namespace pleinair::procedure

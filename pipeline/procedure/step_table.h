@@ -19,4 +19,7 @@ Step readStepId(const config::TomlTable& table, const Procedure& procedure);
 bool readStep(const config::TomlTable& table, Procedure& procedure, std::size_t index,
               std::vector<config::ConfigError>& faults);
 
+/// An error for each key that no step has.
+std::vector<config::ConfigError> unknownStepKeys(const config::TomlTable& table);
+
 }  // namespace pleinair::procedure

@@ -25,6 +25,11 @@ class FuzzSources : public procedure::ProcedureSources {
     if (name == "plug.png") return {};
     return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kNotFound, .problem = "missing"});
   }
+  hal::Result<hal::FrameSize> movie(const std::string& name) override {
+    if (name == "plug.mp4") return hal::FrameSize{320, 180};
+    return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kNotFound,
+                                     .problem = "there is no movie \"" + name + "\""});
+  }
   hal::Result<std::shared_ptr<const scene::Model>> model(const scene::ModelSource&) override {
     static const auto kModel = smallModel();
     return kModel;

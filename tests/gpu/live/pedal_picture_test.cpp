@@ -13,7 +13,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -27,6 +26,7 @@
 #include "firmware_app/repair_station/step_inputs.h"
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/styles/registry.h"
+#include "tests/support/awaited.h"
 #include "tests/support/fake_keyboards.h"
 #include "tests/support/live_simulation.h"
 #include "tests/support/temporary_folder.h"
@@ -155,7 +155,10 @@ class PedalPictureTest : public testing::Test {
   void beginPipeline() {
     supervisor_ = std::make_unique<hal::CameraSupervisor>(selector_, clock_);
     pipeline_ = std::make_unique<runtime::LivePipeline>(*supervisor_, clock_);
-    while (!pipeline_->capture().status().format) pipeline_->capture().step(clock_.now());
+    support::awaited("the camera", [&] {
+      pipeline_->capture().step(clock_.now());
+      return pipeline_->capture().status().format.has_value();
+    });
     auto output = std::make_unique<WatchedOutput>(changes_, clock_);
     const auto format = *output->start({.size = kSize});
     output_ = &pipeline_->addOutput(std::move(output), format, {.name = "watched", .waiting = 16});
@@ -181,9 +184,10 @@ class PedalPictureTest : public testing::Test {
   /// Paints and shows what is due. The GPU is waited for, and takes no time of the clock's.
   void stepStages() {
     wake_.reset();
-    do {
+    support::awaited("a frame to be painted", [&] {
       if (const auto next = output_->step()) wake_ = next;
-    } while (pipeline_->paint().step() || pipeline_->paint().isBusy());
+      return !pipeline_->paint().step() && !pipeline_->paint().isBusy();
+    });
     if (const auto next = output_->step()) wake_ = next;
   }
 
@@ -210,11 +214,11 @@ class PedalPictureTest : public testing::Test {
   /// That of the next step, and not the inset of the one before.
   std::shared_ptr<const overlay::OverlayContent> nextContent() {
     const auto before = controls_.overlay();
-    for (;;) {
-      const auto content = overlay_->update(procedure_->shown(), clock_.now());
-      if (content && !isSame(content->panel.view(), before->panel.view(), 0)) return content;
-      std::this_thread::yield();
-    }
+    return support::awaited("the next step's instruction", [&] {
+      auto content = overlay_->update(procedure_->shown(), clock_.now());
+      const bool isNext = content && !isSame(content->panel.view(), before->panel.view(), 0);
+      return isNext ? content : nullptr;
+    });
   }
 
   void runUntil(hal::TimePoint end) {
@@ -239,7 +243,7 @@ class PedalPictureTest : public testing::Test {
     pedal_.events.push_back({BTN_RIGHT, 1});
     pedal_.events.push_back({BTN_RIGHT, 0});
     runUntil(pressed + kWatched);
-    const hal::Image panel = instructionPanel(procedure_->shown(), service(), kSize);
+    const hal::Image panel = instructionPanel(procedure_->shown(), service(), kSize).image;
     for (std::size_t i = before; i < changes_.size(); ++i) {
       if (shows(changes_[i].picture, panel)) return changes_[i].shown - pressed;
     }

@@ -5,9 +5,11 @@
 #include <cstdlib>
 #include <queue>
 
+#include "pipeline/overlay/movie_player.h"
 #include "pipeline/overlay/reserved_colours.h"
 #include "pipeline/scene/models/limits.h"
-#include "tests/gpu/overlay/bench_machine.h"
+#include "tests/gpu/overlay/overlay_fixture.h"
+#include "tests/reports/overlay/bench_machine.h"
 #include "tests/support/allocation_count.h"
 
 namespace pleinair {
@@ -202,6 +204,59 @@ TEST_F(OverlayTest, SteadyFramesAllocateNothing) {
   };
   paint(0, 8);
   EXPECT_EQ(support::allocationsIn([&] { paint(8, 16); }), 0) << support::allocationSites();
+}
+
+TEST_F(OverlayTest, AMoviePlaysInThePanelAgainAndAgainWithoutAllocating) {
+  // Without a machine the panel stays at the lower edge.
+  BenchMachine bench({.size = kSize, .shot = hal::SyntheticShot::kStill}, {0});
+  app::ProcedureFilm film({.folder = kGearboxProcedure, .step = "drain"}, bench.scene);
+  Painter painter({.pictureSize = kSize, .style = "none", .overlay = true});
+  PaintParameters parameters = painter.defaultParameters();
+  overlay::OverlayContent content = *film.at(hal::Duration{0}, kSize);
+  constexpr hal::FrameSize kMovie{30, 20};
+  overlay::PanelMovie movie{.frames = {}, .length = std::chrono::milliseconds(200)};
+  const auto greyOf = [](std::size_t frame) { return static_cast<std::uint8_t>(60 + 50 * frame); };
+  for (std::size_t i = 0; i < 4; ++i) {
+    movie.frames.push_back(
+        {.begins = i * std::chrono::milliseconds(50),
+         .image = hal::Image({.pixelFormat = hal::PixelFormat::kRgb8, .size = kMovie})});
+    std::ranges::fill(movie.frames.back().image.plane(0), greyOf(i));
+  }
+  content.movie = std::make_shared<const overlay::PanelMovie>(std::move(movie));
+  content.moviePlace = {.topLeft = {120, 8}, .size = {60, 40}};  // twice as large
+  parameters.overlay = std::make_shared<const overlay::OverlayContent>(content);
+  const int top = kSize.height - content.panel.size().height;
+  const int left = content.moviePlace.topLeft.x;
+  std::vector<hal::CapturedFrame> frames;
+  for (int i = 0; i < 24; ++i) frames.push_back(bench.next().first);
+  const hal::TimePoint began = frames.front().captureTime;
+  std::vector<bool> isShown(4);
+  hal::Image before;
+  for (int i = 0; i < 12; ++i) {
+    hal::orThrow(painter.paint(frames[i], parameters));
+    const hal::Image painted = hal::orThrow(painter.snapshot());
+    const std::size_t frame = overlay::frameAt(*content.movie, frames[i].captureTime - began);
+    isShown[frame] = true;
+    const auto pxAt = [&](const hal::Image& image, int x, int y) {
+      return int{image.view().row(0, top + content.moviePlace.topLeft.y + y)[3 * (left + x)]};
+    };
+    EXPECT_NEAR(pxAt(painted, 0, 0), greyOf(frame), 2) << i;
+    EXPECT_NEAR(pxAt(painted, 59, 39), greyOf(frame), 2) << i;
+    if (i > 0) {
+      // beside it: the camera's noise through the panel
+      EXPECT_NEAR(pxAt(painted, -1, 20), pxAt(before, -1, 20), 5);
+      EXPECT_NEAR(pxAt(painted, 60, 20), pxAt(before, 60, 20), 5);
+    }
+    before = painted;
+  }
+  EXPECT_EQ(isShown, std::vector<bool>(4, true));
+  EXPECT_EQ(support::allocationsIn([&] {
+              for (std::size_t i = 12; i < 24; ++i) {
+                (void)painter.paint(frames[i], parameters);
+              }
+            }),
+            0)
+      << support::allocationSites();
 }
 
 TEST_F(OverlayTest, WithoutAMachineThereIsTheInstruction) {

@@ -22,8 +22,8 @@
 #include <fmt/format.h>
 
 #include "firmware_app/config/camera_selection.h"
-#include "firmware_app/live/frame_log_file.h"
 #include "firmware_app/live/runtime_rules.h"
+#include "firmware_app/live/status/frame_log_file.h"
 #include "hal/outputs/display/display_output.h"
 #include "hal/supervisor/camera_supervisor.h"
 #include "pipeline/runtime/live_pipeline.h"

@@ -16,6 +16,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::StartsWith;
 
 class ReloadTest : public testing::Test {
  protected:
@@ -85,6 +86,41 @@ TEST_F(ReloadTest, RefusesWhatIsWrongWithItsPlace) {
   EXPECT_THROW(reload("[["), config::ConfigError);
   std::filesystem::remove(site_);
   EXPECT_THROW(reloaded(request(), *started_, painting_), config::ConfigError);
+}
+
+TEST_F(ReloadTest, TellsWhatWasReadAndWhatComesLater) {
+  start("");
+  const ReloadOutcome all = outcomeOf([&] { return reload("[painting]\nview = \"cells\"\n"); });
+  ASSERT_TRUE(all.painting);
+  EXPECT_EQ(all.painting->view, "cells");
+  EXPECT_EQ(all.notice, "the configuration was read again");
+  const ReloadOutcome later =
+      outcomeOf([&] { return reload("[camera]\nrate = 15\n[runtime]\nlatency = 200\n"); });
+  EXPECT_TRUE(later.painting);
+  EXPECT_EQ(later.notice,
+            "the configuration was read again; at the next start: camera.rate, runtime.latency");
+}
+
+TEST_F(ReloadTest, TellsWhyTheLastOneStaysInForce) {
+  start("");
+  const ReloadOutcome wrong =
+      outcomeOf([&] { return reload("[style.watercolor]\ncell_size = -3\n"); });
+  EXPECT_FALSE(wrong.painting);
+  EXPECT_THAT(wrong.notice, StartsWith("the last configuration stays in force: "));
+  EXPECT_THAT(wrong.notice, HasSubstr("site.toml:2"));
+  const ReloadOutcome failed = outcomeOf([]() -> Reload {
+    throw hal::Failure({.kind = hal::ErrorKind::kIo, .subject = "disk", .problem = "is gone"});
+  });
+  EXPECT_FALSE(failed.painting);
+  EXPECT_THAT(failed.notice, HasSubstr("disk"));
+  // The painting could not start with such a view.
+  const ReloadOutcome unpaintable = outcomeOf([&] {
+    Reload next{.painting = painting_, .later = {}};
+    next.painting.view = "nope";
+    return next;
+  });
+  EXPECT_FALSE(unpaintable.painting);
+  EXPECT_THAT(unpaintable.notice, HasSubstr("nope"));
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ class InstructionPanelTest : public testing::Test {
     return instructionPanel({.procedure = std::make_shared<const procedure::Procedure>(procedure),
                              .language = "de",
                              .request = "Bild ab: fertig"},
-                            {}, output);
+                            {}, output)
+        .image;
   }
   /// The rightmost column and the lowest row with bright ink.
   struct Extent {
@@ -67,6 +68,31 @@ TEST_F(InstructionPanelTest, ALongTextIsSetInSmallerLetters) {
   const hal::Image panel = panelOf("Lang", body, {640, 480});
   EXPECT_LE(panel.size().height, 192);
   EXPECT_LT(inkOf(panel).bottom, panel.size().height - 2) << "all of it is there";
+}
+
+TEST_F(InstructionPanelTest, AMoviesPlaceIsInsideBesideTheText) {
+  auto procedure = std::make_shared<procedure::Procedure>();
+  procedure->languages = {"de"};
+  procedure->warnings.push_back({.id = "hot", .text = {{"de", "Heiß"}}});
+  procedure->steps.resize(1);
+  procedure->steps[0].text["de"] = {.title = "Lösen", .body = "Langsam."};
+  procedure->steps[0].movie = procedure::StepMovie{.file = "m.mp4", .size = {1920, 1080}};
+  for (const hal::FrameSize output : {hal::FrameSize{640, 480}, {1280, 720}, {320, 240}}) {
+    for (const bool isWarned : {false, true}) {
+      procedure->steps[0].warnings.clear();
+      if (isWarned) procedure->steps[0].warnings = {0, 0};
+      const InstructionPanel panel =
+          instructionPanel({.procedure = procedure, .language = "de"}, {}, output);
+      ASSERT_TRUE(panel.movie);
+      const overlay::MoviePlace& place = *panel.movie;
+      EXPECT_NEAR(place.size.width / static_cast<double>(place.size.height), 16.0 / 9.0, 0.05);
+      EXPECT_LE(place.topLeft.x + place.size.width, output.width * 69 / 100);
+      EXPECT_LT(place.topLeft.y + place.size.height, panel.image.size().height);
+      EXPECT_GT(place.topLeft.y, 0);
+    }
+  }
+  procedure->steps[0].movie.reset();
+  EXPECT_FALSE(instructionPanel({.procedure = procedure, .language = "de"}, {}, {640, 480}).movie);
 }
 
 }  // namespace

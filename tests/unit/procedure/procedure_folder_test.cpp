@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/support/av_movie.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/procedure/procedure_texts.h"
 
@@ -111,6 +112,34 @@ TEST_F(ProcedureFolderTest, WhatIsMissingIsSaid) {
   EXPECT_THAT(messages, HasSubstr("en.md:3: there is no picture \"a.png\""));
   EXPECT_THAT(messages, HasSubstr("en.md:4: \"../b.png\" is not in the procedure's folder"));
   EXPECT_THAT(messages, HasSubstr("en.md:5: "));
+}
+
+TEST_F(ProcedureFolderTest, AMovieIsCheckedAndInTheHash) {
+  writeSound();
+  const auto messagesWith = [&](const std::string& movie) {
+    write(path("procedure.toml"), kHead + "[[step]]\nid = \"a\"\nmovie = \"" + movie + "\"\n");
+    return messagesOf(readProcedureFolder(folder_.path()));
+  };
+  support::writeAvMovie(path("turn.mkv"), {.size = {64, 36}, .frames = 15 * 25});
+  EXPECT_EQ(messagesWith("turn.mkv"), "") << "15 s to the frame";
+  const Procedure procedure = loadProcedure(folder_.path());
+  EXPECT_THAT(procedure.files, ElementsAre("en.md", "procedure.toml", "turn.mkv"));
+  EXPECT_EQ(procedure.steps[0].movie->size, (hal::FrameSize{64, 36}));
+  support::writeAvMovie(path("turn.mkv"), {.size = {64, 36}, .frames = 50});
+  EXPECT_NE(loadProcedure(folder_.path()).hash, procedure.hash) << "another movie";
+
+  support::writeAvMovie(path("long.mkv"), {.size = {64, 36}, .frames = 15 * 25 + 2});
+  EXPECT_THAT(messagesWith("long.mkv"),
+              HasSubstr("procedure.toml:8: step[0].movie: \"long.mkv\" lasts longer than 15 s"));
+  EXPECT_THAT(messagesWith("trun.mkv"),
+              HasSubstr("there is no movie \"trun.mkv\" (did you mean \"turn.mkv\"?)"));
+  EXPECT_THAT(messagesWith("../turn.mkv"), HasSubstr("is not in the procedure's folder"));
+  write(path("text.mkv"), "no movie");
+  EXPECT_THAT(messagesWith("text.mkv"), HasSubstr("is not in a supported movie format"));
+  support::writeAvMovie(path("one.mkv"), {.frames = 1});
+  EXPECT_THAT(messagesWith("one.mkv"), HasSubstr("\"one.mkv\" has a single frame"));
+  std::filesystem::create_directory(path("folder"));
+  EXPECT_THAT(messagesWith("folder"), HasSubstr("step[0].movie: "));
 }
 
 TEST_F(ProcedureFolderTest, AModelOutsideOfTheFolderIsRefused) {

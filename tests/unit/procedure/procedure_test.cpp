@@ -42,6 +42,7 @@ removes = ["plug"]
 tools = ["hex"]
 warnings = ["oil"]
 torque = "25 ± 2 Nm"
+movie = "plug.mp4"
 [[step]]
 id = "gap"
 check = { kind = "value", unit = "mm", min = 0.1, max = 0.3 }
@@ -64,6 +65,8 @@ next = "end"
   EXPECT_THAT(drain.parts, ElementsAre(0, 2, 3));
   EXPECT_THAT(drain.removes, ElementsAre(0));
   EXPECT_EQ(drain.torque->newtonMetres, 25.0);
+  EXPECT_EQ(drain.movie->file, "plug.mp4");
+  EXPECT_EQ(drain.movie->size, (hal::FrameSize{320, 180}));
   EXPECT_EQ(procedure.warnings[drain.warnings.at(0)].level, WarningLevel::kCaution);
   EXPECT_EQ(procedure.tools[drain.tools.at(0)].name.at("de"), "Inbus");
   EXPECT_THAT(drain.next, ElementsAre(Pair(Outcome::kDone, 1U)));
@@ -78,7 +81,7 @@ next = "end"
                                     Pair(Outcome::kHigh, kEnd)));
   EXPECT_EQ(procedure.steps[2].check->comparison, "plug.png");
   EXPECT_THAT(procedure.steps[2].parts, ElementsAre(0)) << "what it moves is what it shows";
-  EXPECT_THAT(procedure.files, ElementsAre("de.md", "en.md", "plug.png"));
+  EXPECT_THAT(procedure.files, ElementsAre("de.md", "en.md", "plug.mp4", "plug.png"));
   EXPECT_EQ(procedure.text(0, "fr").title, "Drain the oil") << "the default language";
 }
 
@@ -131,6 +134,9 @@ INSTANTIATE_TEST_SUITE_P(
         StepMistake{"check = { kind = \"compare\", template = \"no.png\" }",
                     "p.toml:10: step[0].check.template: there is no picture \"no.png\""},
         StepMistake{"check = { kind = \"yes_no\", min = 1 }", "step[0].check.min: unknown key"},
+        StepMistake{"movie = \"no.mp4\"", "p.toml:10: step[0].movie: there is no movie \"no.mp4\""},
+        StepMistake{"movie = 5",
+                    "step[0].movie: found 5 (integer), allowed: a movie in the folder"},
         StepMistake{"chek = \"photo\"", "step[0].chek: unknown key (did you mean \"check\"?)"},
         StepMistake{"[[step]]\nid = \"a\"",
                     "p.toml:11: step[1].id: \"a\" is the step at line 9 already"},
@@ -158,6 +164,49 @@ TEST(ProcedureMistakes, AllOfAStepAreListed) {
   }
   EXPECT_EQ(std::ranges::count(messages, '\n'), 4)
       << "what follows from them is none: " << messages;
+}
+
+TEST(ProcedureMistakes, UnknownKeysAreToldBesideOthers) {
+  const std::string messages = messagesOf(
+      readSteps("[[step]]\nid = \"a\"\nparts = [\"y\"]\nmotoin = \"turn\"\ncheck = "
+                "\"nope\"\nnext = \"end\"\n[[step]]\nid = \"b\"\ntorqe = \"5 Nm\"\n[tolls]\n",
+                {"a", "b"}));
+  EXPECT_THAT(messages, HasSubstr("step[0].motoin: unknown key (did you mean \"motion\"?)"));
+  EXPECT_THAT(messages, HasSubstr("step[1].torqe: unknown key (did you mean \"torque\"?)"));
+  EXPECT_THAT(messages, HasSubstr("tolls: unknown key (did you mean \"tools\"?)"));
+  EXPECT_THAT(messages, HasSubstr("step[0].parts"));
+  EXPECT_THAT(messages, HasSubstr("step[0].check"));
+  EXPECT_EQ(std::ranges::count(messages, '\n'), 6)
+      << "the sixth: step b has a question but no check; next is no unknown key: " << messages;
+}
+
+TEST(Procedure, TellsNodesOfOneNameApart) {
+  class Twins : public MemorySources {
+   public:
+    hal::Result<std::shared_ptr<const scene::Model>> model(const scene::ModelSource&) override {
+      return modelWithParts({"piston", "rod", "piston", "ring#1"});
+    }
+  } sources;
+  sources.texts["en.md"] = "# T\n## a: A\n## b: B\n";
+  const auto read = [&](const std::string& a, const std::string& b) {
+    return readProcedure(kHead + "[[step]]\nid = \"a\"\nparts = [" + a +
+                             "]\n[[step]]\nid = \"b\"\nparts = [" + b + "]\n",
+                         "p.toml", sources);
+  };
+  const ProcedureReading reading = read("\"piston\", \"ring#1\"", "\"piston#2\"");
+  EXPECT_EQ(messagesOf(reading), "");
+  EXPECT_THAT(reading.procedure.steps[0].parts, ElementsAre(0, 2, 3));
+  EXPECT_THAT(reading.procedure.steps[1].parts, ElementsAre(2));
+  const std::string messages = messagesOf(read("\"piston#3\"", "\"rod#0\""));
+  EXPECT_THAT(messages, HasSubstr("step[0].parts: the model has no node \"piston#3\""));
+  EXPECT_THAT(messages, HasSubstr("step[1].parts: the model has no node \"rod#0\""));
+}
+
+/// An array below a table's head belongs to the table.
+TEST(ProcedureMistakes, StepsBelowATableAreSaidToBeInIt) {
+  const std::string messages = messagesOf(readSteps("step = [{ id = \"a\" }]\n", {"a"}, ""));
+  EXPECT_THAT(messages, HasSubstr("p.toml:6: model.step: unknown key"));
+  EXPECT_THAT(messages, HasSubstr("step: missing, allowed: at least one [[step]]"));
 }
 
 TEST(ProcedureMistakes, AWrongIdHidesNoOthers) {

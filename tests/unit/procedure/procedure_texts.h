@@ -30,6 +30,11 @@ class MemorySources : public ProcedureSources {
     return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kNotFound,
                                      .problem = "there is no picture \"" + name + "\""});
   }
+  hal::Result<hal::FrameSize> movie(const std::string& name) override {
+    if (name == "plug.mp4") return hal::FrameSize{320, 180};
+    return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kNotFound,
+                                     .problem = "there is no movie \"" + name + "\""});
+  }
   hal::Result<std::shared_ptr<const scene::Model>> model(const scene::ModelSource&) override {
     return modelWithParts({"plug", "cover", "bolt_1", "bolt_2", "shaft"});
   }

@@ -1,5 +1,8 @@
 #include "pipeline/procedure/skeleton.h"
 
+#include <array>
+#include <cstdint>
+
 #include <gmock/gmock.h>
 
 #include "pipeline/scene/builtin/builtin_gearbox.h"
@@ -40,6 +43,19 @@ TEST(Skeleton, IsASoundProcedureWithAStepForEachNodeOrSeries) {
   EXPECT_THAT(reading.procedure.steps[1].parts, testing::ElementsAre(1, 2, 3))
       << "not the plate, whose name begins in the same way";
   EXPECT_EQ(skeleton.steps, 6U);
+}
+
+TEST(Skeleton, NumberedNodesOfDifferentShapesHaveStepsOfTheirOwn) {
+  auto model = *modelWithParts({"body", "body_1", "body_2", "body_3", "body_4", "body_4"});
+  const std::array<std::uint32_t, 6> triangles{12, 300, 12, 40, 40, 7};
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    model.parts[i].triangleCount = triangles.at(i);
+  }
+  const Skeleton skeleton = skeletonOf(model, "m", "builtin:gearbox", "", kLanguages);
+  EXPECT_EQ(skeleton.steps, 3U) << skeleton.toml;
+  EXPECT_THAT(skeleton.toml, HasSubstr("id = \"body\"\nparts = [\"body\", \"body_2\"]"));
+  EXPECT_THAT(skeleton.toml, HasSubstr("id = \"body_1\"\nparts = [\"body_1\"]"));
+  EXPECT_THAT(skeleton.toml, HasSubstr("id = \"body_3\"\nparts = [\"body_3\", \"body_4\"]"));
 }
 
 TEST(Skeleton, OfTheGearbox) {

@@ -123,12 +123,30 @@ TEST(StepTile, IsAsHighAsItsText) {
   EXPECT_GT(full, plain + 40);
   EXPECT_GT(stepTextRows(procedure, 1, "en", 200), full) << "wrapped";
   hal::Image picture({.pixelFormat = hal::PixelFormat::kRgb8, .size = {480, 20}});
-  const hal::Image tile = stepTile(procedure, 1, "en", picture, full);
+  const hal::Image tile = stepTile(procedure, 1, "en", picture, {}, full);
   EXPECT_EQ(tile.size(), (hal::FrameSize{480, 20 + full}));
   int inked = 0;
   for (const std::uint8_t byte : tile.view().row(0, 20 + full / 2)) inked += byte < 128 ? 1 : 0;
   for (const std::uint8_t byte : tile.view().row(0, 36)) inked += byte < 128 ? 1 : 0;
   EXPECT_GT(inked, 0);
+}
+
+TEST(StepTile, HasItsMovieAndPicturesBelowTheText) {
+  const auto readWith = [](const std::string& keys) {
+    return procedure::readSteps("[[step]]\nid = \"a\"\n" + keys, {"a"}, "").procedure;
+  };
+  const procedure::Procedure plain = readWith("");
+  const procedure::Procedure moving = readWith("movie = \"plug.mp4\"\n");
+  const int rows = stepTextRows(moving, 0, "en", 200);
+  EXPECT_EQ(rows, stepTextRows(plain, 0, "en", 200) + kIllustrationRows + 10);
+  const hal::Image picture({.pixelFormat = hal::PixelFormat::kRgb8, .size = {200, 20}});
+  const hal::Image dark({.pixelFormat = hal::PixelFormat::kRgb8, .size = {150, kIllustrationRows}});
+  const std::vector<hal::Image> both{dark, dark};  // the second one is cut at the border
+  const hal::Image tile = stepTile(moving, 0, "en", picture, both, rows);
+  const auto row = tile.view().row(0, 20 + rows - kIllustrationRows / 2);
+  EXPECT_EQ(row[3 * 50], 0);
+  EXPECT_EQ(row[3 * 165], 255) << "between them";
+  EXPECT_EQ(row[3 * 199], 0);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "firmware_app/live/display_captions.h"
+#include "firmware_app/live/interaction/display_captions.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "firmware_app/live/live_caption.h"
+#include "firmware_app/live/interaction/live_caption.h"
 
 namespace pleinair::app {
 namespace {

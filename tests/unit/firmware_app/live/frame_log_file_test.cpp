@@ -1,4 +1,4 @@
-#include "firmware_app/live/frame_log_file.h"
+#include "firmware_app/live/status/frame_log_file.h"
 
 #include <chrono>
 #include <csignal>

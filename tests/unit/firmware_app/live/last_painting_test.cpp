@@ -1,4 +1,4 @@
-#include "firmware_app/live/last_painting.h"
+#include "firmware_app/live/screens/last_painting.h"
 
 #include <chrono>
 #include <cstdint>

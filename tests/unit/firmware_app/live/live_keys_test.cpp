@@ -1,4 +1,4 @@
-#include "firmware_app/live/live_keys.h"
+#include "firmware_app/live/interaction/live_keys.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

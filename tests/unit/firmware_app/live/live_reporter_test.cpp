@@ -1,4 +1,4 @@
-#include "firmware_app/live/live_reporter.h"
+#include "firmware_app/live/status/live_reporter.h"
 
 #include <algorithm>
 #include <memory>

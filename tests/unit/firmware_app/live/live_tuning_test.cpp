@@ -1,4 +1,4 @@
-#include "firmware_app/live/live_tuning.h"
+#include "firmware_app/live/interaction/live_tuning.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

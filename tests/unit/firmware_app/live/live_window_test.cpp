@@ -1,4 +1,4 @@
-#include "firmware_app/live/live_window.h"
+#include "firmware_app/live/interaction/live_window.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // What a hot machine does to the painting, and what is said of it.
-#include "firmware_app/live/machine_health.h"
+#include "firmware_app/live/status/machine_health.h"
 
 #include <chrono>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "firmware_app/live/machine_notice.h"
+#include "firmware_app/live/status/machine_notice.h"
 
 #include <chrono>
 #include <filesystem>

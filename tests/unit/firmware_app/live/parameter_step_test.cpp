@@ -1,4 +1,4 @@
-#include "firmware_app/live/parameter_step.h"
+#include "firmware_app/live/interaction/parameter_step.h"
 
 #include <limits>
 #include <string>

@@ -1,4 +1,4 @@
-#include "firmware_app/live/presence.h"
+#include "firmware_app/live/interaction/presence.h"
 
 #include <chrono>
 

@@ -1,4 +1,4 @@
-#include "firmware_app/live/presentation_watch.h"
+#include "firmware_app/live/status/presentation_watch.h"
 
 #include <gtest/gtest.h>
 

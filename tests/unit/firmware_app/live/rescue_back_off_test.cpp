@@ -1,4 +1,4 @@
-#include "firmware_app/live/rescue_back_off.h"
+#include "firmware_app/live/screens/rescue_back_off.h"
 
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,5 @@
 // The rescue picture on a fake card whose refreshes follow a stepped clock.
-#include "firmware_app/live/rescue_picture.h"
+#include "firmware_app/live/screens/rescue_picture.h"
 
 #include <chrono>
 #include <utility>

@@ -1,6 +1,6 @@
 // What a display shows from the program's start on: a fake card, whose refreshes follow a stepped
 // clock, behind the display output and an output stage.
-#include "firmware_app/live/screens.h"
+#include "firmware_app/live/screens/screens.h"
 
 #include <chrono>
 #include <fstream>

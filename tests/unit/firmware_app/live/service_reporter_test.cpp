@@ -1,4 +1,4 @@
-#include "firmware_app/live/service_reporter.h"
+#include "firmware_app/live/status/service_reporter.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

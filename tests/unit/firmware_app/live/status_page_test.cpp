@@ -1,5 +1,5 @@
 // The page for people of the status server.
-#include "firmware_app/live/status_page.h"
+#include "firmware_app/live/status/status_page.h"
 
 #include <array>
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "firmware_app/live/thumbnail.h"
+#include "firmware_app/live/status/thumbnail.h"
 #include "hal/media/frame_pixels.h"
 #include "hal/media/picture_decoder.h"
 

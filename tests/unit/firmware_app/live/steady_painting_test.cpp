@@ -1,4 +1,4 @@
-#include "firmware_app/live/steady_painting.h"
+#include "firmware_app/live/status/steady_painting.h"
 
 #include <filesystem>
 #include <utility>

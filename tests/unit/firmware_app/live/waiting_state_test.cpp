@@ -1,4 +1,4 @@
-#include "firmware_app/live/waiting_state.h"
+#include "firmware_app/live/screens/waiting_state.h"
 
 #include <chrono>
 #include <cstdint>

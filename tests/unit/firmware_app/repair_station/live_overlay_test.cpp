@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "pipeline/procedure/procedure_file.h"
+#include "tests/support/av_movie.h"
+#include "tests/support/awaited.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pleinair::app {
 namespace {
@@ -28,18 +30,14 @@ class LiveOverlayTest : public testing::Test {
 
   /// Waits for what is being made.
   Content made(const StepShown& shown) {
-    for (;;) {
-      if (auto content = overlay_.update(shown, now_)) return content;
-      std::this_thread::yield();
-    }
+    return support::awaited("an overlay", [&] { return overlay_.update(shown, now_); });
   }
   /// Waits for all of a new step.
   Content madeWhole(const StepShown& shown) {
-    Content content;
-    do {
-      content = made(shown);
-    } while (isBlank(content->inset));
-    return content;
+    return support::awaited("an inset", [&] {
+      Content content = made(shown);
+      return isBlank(content->inset) ? nullptr : content;
+    });
   }
 
   static bool isBlank(const hal::Image& image) {
@@ -89,15 +87,58 @@ TEST_F(LiveOverlayTest, TheInstructionDoesNotWaitForTheInset) {
   EXPECT_EQ(whole->looks, second->looks);
 }
 
+TEST_F(LiveOverlayTest, AMovieComesAfterTheInstructionAndStaysWhileTextsChange) {
+  const support::TemporaryFolder folder;
+  support::writeAvMovie(folder.path() / "turn.mkv", {.size = {64, 36}, .frames = 50});
+  auto moving = std::make_shared<procedure::Procedure>(*procedure_);
+  moving->steps[1].movie = procedure::StepMovie{.file = "turn.mkv", .size = {64, 36}};
+  procedure_ = moving;
+  LiveOverlay overlay(moving->model.get(), folder.path(), {320, 240}, false, {});
+  ASSERT_EQ(overlay.update(step(0), now_)->movie, nullptr);
+  const auto next = [&](const StepShown& shown) {
+    return support::awaited("an overlay", [&] { return overlay.update(shown, now_); });
+  };
+  const Content first = next(step(1));
+  EXPECT_EQ(first->movie, nullptr) << "it takes longer";
+  EXPECT_GT(first->moviePlace.size.width, 0) << "its place stays clear of text";
+  const auto withMovie = support::awaited("the movie", [&] {
+    Content content = next(step(1));
+    return content->movie ? content : nullptr;
+  });
+  EXPECT_EQ(withMovie->movie->frames.front().image.size(), withMovie->moviePlace.size);
+  overlay.notify("two inputs at once", now_);
+  EXPECT_EQ(next(step(1))->movie, withMovie->movie) << "it is not decoded again";
+  EXPECT_EQ(next(step(2))->movie, nullptr);
+}
+
+TEST_F(LiveOverlayTest, OfStepsThatChangeFasterTheLastOnesMovieIsShown) {
+  const support::TemporaryFolder folder;
+  support::writeAvMovie(folder.path() / "turn.mkv", {.size = {64, 36}, .frames = 300});
+  auto moving = std::make_shared<procedure::Procedure>(*procedure_);
+  for (auto& each : moving->steps) {
+    each.movie = procedure::StepMovie{.file = "turn.mkv", .size = {64, 36}};
+  }
+  procedure_ = moving;
+  LiveOverlay overlay(moving->model.get(), folder.path(), {320, 240}, false, {});
+  ASSERT_NE(overlay.update(step(0), now_), nullptr);
+  for (const std::size_t each : {1U, 0U, 1U, 0U}) {
+    support::awaited("an overlay", [&] { return overlay.update(step(each), now_); });
+  }
+  support::awaited("the movie", [&] {
+    const Content content = overlay.update(step(0), now_);
+    return content && content->movie;
+  });
+}
+
 TEST_F(LiveOverlayTest, OfStepsThatChangeFasterTheNewestIsShownInTheEnd) {
   ASSERT_NE(overlay_.update(step(0), now_), nullptr);
   for (std::size_t i = 1; i < 5; ++i) overlay_.update(step(i), now_);
-  Content last;
   const auto expected =
       LiveOverlay(procedure_->model.get(), kGearbox, {320, 240}, false, {}).update(step(4), now_);
-  do {
-    last = madeWhole(step(4));
-  } while (last->looks != expected->looks);
+  const Content last = support::awaited("the newest step", [&] {
+    Content content = madeWhole(step(4));
+    return content->looks == expected->looks ? content : nullptr;
+  });
   EXPECT_TRUE(isSame(last->inset, expected->inset));
   EXPECT_EQ(overlay_.update(step(4), now_), nullptr);
 }
@@ -128,11 +169,10 @@ TEST_F(LiveOverlayTest, AnotherTextKeepsTheInset) {
 TEST_F(LiveOverlayTest, ALaterNoticeHidesNoFailure) {
   LiveOverlay overlay(procedure_->model.get(), kGearbox, {1280, 720}, false, {});
   const auto heightOf = [&] {
-    for (;;) {
-      if (const auto content = overlay.update(step(procedure::kEnd), now_))
-        return content->panel.size().height;
-      std::this_thread::yield();
-    }
+    return support::awaited("an overlay",
+                            [&] { return overlay.update(step(procedure::kEnd), now_); })
+        ->panel.size()
+        .height;
   };
   const int plain = heightOf();
   overlay.notifyFailure("the disk is full", now_);

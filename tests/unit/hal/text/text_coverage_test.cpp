@@ -1,8 +1,12 @@
 #include "hal/text/text_coverage.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -54,6 +58,43 @@ TEST(TextCoverage, CutsWhatIsTooWide) {
   EXPECT_EQ(cut.size().height,
             textCoverage(text, {.fontPixels = 15, .maxWidth = 1000}).size().height);
   EXPECT_GT(inkIn(cut, 0, 120), 50);
+}
+
+/// Letters that look the same in three scripts show that their glyphs are there: a missing one
+/// would be a box with its number.
+TEST(TextCoverage, HasGreekAndCyrillicLetters) {
+  const auto drawn = [](const std::string& text) {
+    const Image image = textCoverage(text, {.fontPixels = 30, .maxWidth = 1000});
+    const auto bytes = image.view().planes[0].bytes;
+    return std::vector<std::uint8_t>(bytes.begin(), bytes.end());
+  };
+  EXPECT_EQ(drawn("ΑΒΕΖΗΙΚΜΝΟΡΤΧ"), drawn("ABEZHIKMNOPTX"));
+  const std::vector<std::pair<std::string, std::string>> cyrillic{
+      {"А", "A"}, {"В", "B"}, {"Е", "E"}, {"М", "M"}, {"Н", "H"},
+      {"О", "O"}, {"Р", "P"}, {"С", "C"}, {"Т", "T"}, {"Х", "X"}};
+  for (const auto& [letter, latin] : cyrillic) EXPECT_EQ(drawn(letter), drawn(latin)) << latin;
+  EXPECT_NE(drawn("ΓΔΘ"), drawn("ГДФ"));
+}
+
+TEST(TextCoverage, JoinsArabicLettersFromRightToLeft) {
+  const auto drawn = [](const std::string& text) {
+    return textCoverage(text, {.fontPixels = 30, .maxWidth = 1000});
+  };
+  // U+200C keeps letters apart.
+  EXPECT_LT(drawn("ببب").size().width, drawn("ب\u200Cب\u200Cب").size().width * 8 / 10);
+  // The alef, a thin stroke, is on the right: it comes first.
+  Image word = drawn("اــــــ");
+  const int half = word.size().width / 2;
+  const auto highestIn = [&](int from, int to) {
+    for (int y = 0; y < word.size().height; ++y) {
+      const auto row = word.row(0, y);
+      for (int x = from; x < to; ++x) {
+        if (row[static_cast<std::size_t>(x)] > 127) return y;
+      }
+    }
+    return word.size().height;
+  };
+  EXPECT_LT(highestIn(half, word.size().width), highestIn(0, half) - 8);
 }
 
 TEST(TextCoverage, SurvivesAnyText) {
