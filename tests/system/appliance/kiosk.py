@@ -157,6 +157,15 @@ class Kiosk:
         self._machine.command("screendump", filename=path)
         return check.Screen(path)
 
+    def shows_caption(self, name, expected, minutes=5):
+        """Waits until a text lies over the painting, or none does: the next painting shows it, which takes seconds under
+        emulation. The screen is kept as NAME.ppm."""
+        end = time.monotonic() + 60 * minutes
+        while has_caption(self.screen(name)) != expected:
+            if time.monotonic() > end:
+                raise Failed(f"the screen {'says nothing' if expected else 'says something'}: {name}.ppm")
+            time.sleep(1)
+
     def paints(self, minutes):
         """Waits until two paintings differ, as those of a camera do. Text is a failure."""
         end = time.monotonic() + 60 * minutes
