@@ -171,9 +171,10 @@ class Kiosk:
         end = time.monotonic() + 60 * minutes
         began = time.monotonic()
         waiting = last = None
+        firmware = check.Firmware()
         while time.monotonic() < end and self._machine.is_running():
             screen = self.screen("now")
-            after_firmware = time.monotonic() - began > check.FIRMWARE_SECONDS
+            after_firmware = firmware.is_over(time.monotonic() - began, screen)
             if after_firmware and screen.kind() == "text":
                 shutil.copy(os.path.join(self.folder, "now.ppm"), os.path.join(self.folder, "text.ppm"))
                 raise Failed("there is text on the screen: " + os.path.join(self.folder, "text.ppm"))
