@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Boots a copy of a machine image in QEMU, by UEFI and GRUB and with its own command line, to which only software GL and the
-kernel's virtual camera are added, and judges the screen. In its first seconds it is the firmware's and GRUB's; from then on it
-may change to pictures and black, and to no text. A waiting picture comes, and then a painting that moves.
+kernel's virtual camera are added, and judges the screen. In its first seconds, up to twice the moment of the firmware's first
+mode, it is the firmware's and GRUB's; from then on it may change to pictures and black, and to no text. A waiting picture comes,
+and then a painting that moves.
 
     check.py DISK.img OUTPUT_FOLDER [MINUTES]
 
@@ -21,6 +22,7 @@ LEAST_COLOURS = 200  # of a picture on paper; text on black has few
 OTHER_PICTURE = 0.4  # of the bytes: a painting in place of the waiting picture
 MOVED = 0.002
 FIRMWARE_SECONDS = 20  # under emulation: 7 on an idle machine, and the kernel needs longer than the rest
+FIRMWARE_MODES = 2  # GRUB is done at 1.3 times the moment of the firmware's first mode, however slow the machine
 FIRMWARE = "/usr/share/OVMF/OVMF_CODE_4M.fd"
 WORDS = "pleinair.software_gl modules_load=vivid"
 EDIT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "root", "usr", "lib", "pleinair", "bin", "grub-editenv")
@@ -124,6 +126,23 @@ class Screen:
         return sum(abs(a - b) > 24 for a, b in pairs) / max(1, len(pairs))
 
 
+class Firmware:
+    """Tells the screens of the firmware and of GRUB, which may be text, from those that come after them."""
+
+    def __init__(self):
+        self._first_size = None
+        self._end = None  # not known before the firmware has set its mode
+
+    def is_over(self, at, screen):
+        """`at`: seconds since power on. For each screen, in their order."""
+        size = (screen.width, screen.height)
+        if self._first_size is None:
+            self._first_size = size
+        if self._end is None and size != self._first_size:
+            self._end = max(FIRMWARE_SECONDS, FIRMWARE_MODES * at)
+        return self._end is not None and at > self._end
+
+
 def watch(machine, folder, seconds):
     """Yields (second, screen) for each screen that differs from the one before."""
     began = time.monotonic()
@@ -150,10 +169,11 @@ def main():
     subprocess.run(["cp", "--sparse=always", disk, copy], check=True)
     add_words(copy, folder)
     waiting, paintings, texts = None, [], []
+    firmware = Firmware()
     with Machine(copy, folder) as machine:
         for at, screen in watch(machine, folder, 60 * minutes):
             kind = screen.kind()
-            is_started = waiting is not None or at > FIRMWARE_SECONDS
+            is_started = firmware.is_over(at, screen)
             if kind == "text" and is_started:
                 texts.append(f"{at:.1f}")
             if kind != "picture" or not is_started:

@@ -157,14 +157,24 @@ class Kiosk:
         self._machine.command("screendump", filename=path)
         return check.Screen(path)
 
+    def shows_caption(self, name, expected, minutes=5):
+        """Waits until a text lies over the painting, or none does: the next painting shows it, which takes seconds under
+        emulation. The screen is kept as NAME.ppm."""
+        end = time.monotonic() + 60 * minutes
+        while has_caption(self.screen(name)) != expected:
+            if time.monotonic() > end:
+                raise Failed(f"the screen {'says nothing' if expected else 'says something'}: {name}.ppm")
+            time.sleep(1)
+
     def paints(self, minutes):
         """Waits until two paintings differ, as those of a camera do. Text is a failure."""
         end = time.monotonic() + 60 * minutes
         began = time.monotonic()
         waiting = last = None
+        firmware = check.Firmware()
         while time.monotonic() < end and self._machine.is_running():
             screen = self.screen("now")
-            after_firmware = time.monotonic() - began > check.FIRMWARE_SECONDS
+            after_firmware = firmware.is_over(time.monotonic() - began, screen)
             if after_firmware and screen.kind() == "text":
                 shutil.copy(os.path.join(self.folder, "now.ppm"), os.path.join(self.folder, "text.ppm"))
                 raise Failed("there is text on the screen: " + os.path.join(self.folder, "text.ppm"))

@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+"""How screens of a starting machine are told apart (appliance/image/check.py), by screens that are made here."""
+import os
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import grub  # noqa: E402
+
+sys.path.insert(0, grub.IMAGE)
+
+import check  # noqa: E402
+
+
+class Screens(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = os.path.join(folder.name, "screen.ppm")
+
+    def screen(self, width, height, colour=lambda x, y: (0, 0, 0)):
+        with open(self.path, "wb") as file:
+            file.write(b"P6\n%d %d\n255\n" % (width, height))
+            file.write(b"".join(bytes(colour(x, y)) for y in range(height) for x in range(width)))
+        return check.Screen(self.path)
+
+    def test_kinds(self):
+        self.assertEqual(self.screen(64, 48).kind(), "black")
+        self.assertEqual(self.screen(64, 48, lambda x, y: (255 * (x % 9 == 0 and y < 9),) * 3).kind(), "text")
+        self.assertEqual(self.screen(64, 48, lambda x, y: (4 * x, 5 * y, x + y)).kind(), "picture")
+
+    def phases(self, mode_at, moments):
+        """Whether the firmware is done at each moment, where its own mode comes at `mode_at`."""
+        firmware = check.Firmware()
+        return [firmware.is_over(at, self.screen(8, 6) if at < mode_at else self.screen(16, 8)) for at in moments]
+
+    def test_text_is_the_firmwares_up_to_20_seconds(self):
+        self.assertEqual(self.phases(5, [0, 6, 19, 21, 60]), [False, False, False, True, True])
+
+    def test_a_slow_machine_has_as_much_longer(self):
+        # As seen on a busy machine: the mode after 17.2 s, GRUB's last text at 21.2.
+        self.assertEqual(self.phases(17.2, [0, 17.2, 21.2, 34, 35]), [False, False, False, False, True])
+        self.assertEqual(self.phases(40, [0, 30, 40, 79, 81]), [False, False, False, False, True])
+
+
+if __name__ == "__main__":
+    unittest.main()
