@@ -60,7 +60,8 @@ void main() {
   vec3 normal = normalize(vec3(-slope, 1.0));
   float lit = litBy(normal);
   vec4 substrate = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
-  lit += weave * (1.0 - 0.7 * here) * (2.0 * substrate.g - 1.0);
+  // The canvas goes with the camera's image: a model would glide over its threads.
+  lit += (isModel ? 0.0 : weave) * (1.0 - 0.7 * here) * (2.0 * substrate.g - 1.0);
   // A loop that no invocation enters costs nothing on software renderers.
   for (int i = tooth > 0.0 ? 0 : 1; i < 1; ++i) {
     float bare = 1.0 - caught(substrate.r, texelFetch(heights, p, 0).g);
