@@ -15,7 +15,7 @@ layout(location = 1) out vec4 height;
 
 const float kThinEnd = 1.2;  // widths
 const float kVariants = 4.0;
-const float kSmooth = 0.75;  // px
+const float kSmooth = 0.75;  // px, as in stroke_strips.comp
 
 // Across the stroke, from -1 to 1, of one that is drawn wider than it is.
 float acrossStroke() {
