@@ -342,6 +342,34 @@ TEST_F(SpillTest, OutOfModelSpaceNoModelIsKnown) {
   EXPECT_EQ(spilled(1, true, "once", "true", "false"), unknown);
 }
 
+/// The canvas goes with the camera's image, and a model does not.
+TEST_F(SpillTest, TheCanvassThreadsDoNotShowOnModels) {
+  const auto paintedOn = [this](const char* canvas) {
+    restart();
+    setIds(kSize, [](int x, int y) { return beyondDisc(x, y) < 0.0 ? 1U : 0U; });
+    Painterly style(library_);
+    style.setParameters(style.parameters().with("canvas", canvas));
+    scene::ArFrame frame = next(disc());
+    frame.hasObjects = true;
+    frame.ids = &ids_;
+    frame.forms = &forms_;
+    frame.barycentrics = &zeros_;
+    frame.normalFocus = &picture_;
+    return paint(style, frame);
+  };
+  const std::vector<std::uint8_t> plain = paintedOn("0");
+  const std::vector<std::uint8_t> woven = paintedOn("1");
+  int onModel = 0;
+  int inImage = 0;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const auto pixel = static_cast<int>(i / 4);
+    const bool isOnModel = beyondDisc(pixel % kSize.width, pixel / kSize.width) < 0.0;
+    (isOnModel ? onModel : inImage) += plain[i] != woven[i] ? 1 : 0;
+  }
+  EXPECT_EQ(onModel, 0);
+  EXPECT_GT(inImage, 10'000);
+}
+
 /// An occluder's outline is where its model was put, not where the picture has an edge.
 TEST_F(SpillTest, OverAnOccludersOutlineThePictureGoesOn) {
   const int clipped = spilled(1, true);

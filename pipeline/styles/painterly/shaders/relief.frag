@@ -1,7 +1,8 @@
 // Purpose: light on the relief of the paint and its canvas, once per pixel; content in focus stays
 //          sharp.
 // Inputs:  colours, heights (stroke_mark.glsl); ids (ArFrame) if hasObjects; substrate.glsl's: the
-//          canvas; frame, normalFocus if hasFocus; relief, gloss, weave: the weight of each; tooth:
+//          canvas; frame, normalFocus if hasFocus; relief, gloss, weave: the weight of each, the last
+//          one not on models; tooth:
 //          how much the substrate's grain keeps paint from its hollows, where the washed ground
 //          shows, but not from those under movers, which would glide over it; mover_labels.glsl's;
 //          pixelsOfFull; palette: saturation, warmth.
@@ -60,7 +61,8 @@ void main() {
   vec3 normal = normalize(vec3(-slope, 1.0));
   float lit = litBy(normal);
   vec4 substrate = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
-  lit += weave * (1.0 - 0.7 * here) * (2.0 * substrate.g - 1.0);
+  // The canvas goes with the camera's image: a model would glide over its threads.
+  lit += (isModel ? 0.0 : weave) * (1.0 - 0.7 * here) * (2.0 * substrate.g - 1.0);
   // A loop that no invocation enters costs nothing on software renderers.
   for (int i = tooth > 0.0 ? 0 : 1; i < 1; ++i) {
     float bare = 1.0 - caught(substrate.r, texelFetch(heights, p, 0).g);

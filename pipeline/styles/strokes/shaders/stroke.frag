@@ -13,7 +13,7 @@
 
 void main() {
   vec2 place = brushPlace();
-  vec2 texel = texture(brushes, place).rg;
+  vec2 texel = markAt(place);
   vec3 rgb = pigment(texel.g);
   float cover = paint.a * texel.r;
 #ifdef BUMPED

@@ -8,7 +8,6 @@
 uniform float relief;
 uniform float gloss;
 in vec2 along;
-flat in float sense;
 
 vec3 bumped(vec3 rgb, vec2 place) {
   float left = textureOffset(brushes, place, ivec2(-1, 0)).g;
@@ -16,7 +15,7 @@ vec3 bumped(vec3 rgb, vec2 place) {
   float bottom = textureOffset(brushes, place, ivec2(0, -1)).g;
   float top = textureOffset(brushes, place, ivec2(0, 1)).g;
   vec2 onward = normalize(along);
-  vec2 across = sense * vec2(-onward.y, onward.x);
+  vec2 across = sign(sense) * vec2(-onward.y, onward.x);
   vec2 tilt = relief * ((left - right) * onward + (bottom - top) * across);
   vec3 normal = normalize(vec3(tilt, 1.0));
   return clamp(inLight(rgb, litBy(normal)) + gloss * shineOf(normal), 0.0, 1.0);

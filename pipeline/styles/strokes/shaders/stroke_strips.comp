@@ -7,6 +7,7 @@
 //          0, the number of quads of every strip (the thesis's 4 (n + 2), §4.4).
 // Outputs: vertices in the layout of stroke.vert. One invocation per stroke.
 // Precision: highp.
+#include "pipeline/marks/shaders/stroke_label.glsl"
 #include "pipeline/styles/strokes/shaders/strip_spline.glsl"
 layout(local_size_x = 64) in;
 struct Vertex {
@@ -14,7 +15,8 @@ struct Vertex {
   uint brush;   // unorms: along and across the stroke, in the brush's variant
   uint along;   // snorms: the stroke's direction
   uvec2 paint;  // halves
-  uint shape;  // halves: the stroke's length by its width; the sense of the brush across it
+  uint shape;  // halves: the stroke's length by its width; the sense of the brush across it, times
+               // the drawn width by the stroke's
   uint label;
 };
 layout(std430, binding = 1) readonly buffer Drawn { DrawCommand drawn; };
@@ -42,12 +44,18 @@ void main() {
   float whole = max(way + 2.0 * reach, 1e-3);
   uint variant = uint(shape.y) & 3u;
   float sense = shape.y >= kVariants ? -1.0 : 1.0;
+#ifndef LONG
+  // Strokes on models move by parts of a pixel: their sides are smooth (stroke_mark.glsl).
+  float broader = isPatch(uint(shape.z)) ? 1.0 + kSmooth / max(shape.x, 0.5) : 1.0;
+#endif
   Vertex made;
   made.paint = uvec2(packHalf2x16(paint.rg), packHalf2x16(paint.ba));
-  made.shape = packHalf2x16(vec2(min(0.5 * whole / max(shape.x, 0.5), 1000.0), sense));
+  float aspect = min(0.5 * whole / max(shape.x, 0.5), 1000.0);
 #ifdef LONG
+  made.shape = packHalf2x16(vec2(aspect, sense));
   made.label = uint(shape.z) | variant << 16u;
 #else
+  made.shape = packHalf2x16(vec2(aspect, sense * broader));
   made.label = uint(shape.z);
 #endif
   uint next = plan.first;
@@ -78,7 +86,7 @@ void main() {
       made.brush = packUnorm2x16(vec2(part, 0.5 + 0.5 * across));
 #else
       made.at = place.at + beyond * reach * place.along +
-                across * shape.x * vec2(-place.along.y, place.along.x);
+                across * shape.x * broader * vec2(-place.along.y, place.along.x);
       float row = float(variant) + 0.02 + 0.96 * (0.5 + 0.5 * sense * across);
       made.brush = packUnorm2x16(vec2(part, row / kVariants));
 #endif
