@@ -183,7 +183,7 @@ void main() {
   bool isOnMover = (state & kMover) != 0u;
   bool isBehind = (state & kCovered) != 0u;
   // A mover has left it behind. It would be drawn over the mover as long as it kept its label.
-  bool isLeft = !isOnMover && labelOfStroke(old.state) == kMoverLabel;
+  bool isLeft = !isOnMover && isMoverLabel(labelOfStroke(old.state));
   vec2 found = isNew || isOnMover || isLeft ? vec2(0.0) : whatIsBefore(px, old);
   bool isBeside = found.x > 0.1;
   if (!isNew && ((state & kHidden) != 0u || isBehind || isBeside)) {
@@ -213,7 +213,7 @@ void main() {
     isNew = true;
   }
   bool isModel = hasObjects && isVirtual(objectOf(anchors[slot].surface));
-  uint label = isOnMover ? kMoverLabel : 0u;
+  uint label = isOnMover ? labelOfMover(moverOf(state)) : 0u;
   if (!isModel && !isOnMover) label = labelOfGround(px, labelOfStroke(old.state), isNew);
   if (isModel) {
     // That of its birth: its triangle does not change.

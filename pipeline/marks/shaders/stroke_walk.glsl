@@ -121,9 +121,9 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
     }
     vec3 there = goesOn ? colourAt(at, on) : own;
     float difference = apart(there, own);
-    if (goesOn && clips && (moverAt(at).r > 0.5) != on.isOnMover) {
+    if (goesOn && clips && isBeyond(at, on)) {
       // It does not cross a mover's border.
-      bool isEarly = (moverAt(at - 0.5 * segment * direction).r > 0.5) != on.isOnMover;
+      bool isEarly = isBeyond(at - 0.5 * segment * direction, on);
       arm.length = min(arm.length, float(i) + (isEarly ? 0.25 : 0.75));
       goesOn = false;
     }
