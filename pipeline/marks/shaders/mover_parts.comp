@@ -148,7 +148,6 @@ void main() {
   uint lane = gl_LocalInvocationID.x;
   uint lanes = gl_WorkGroupSize.x;
   uint count = uint(grid.x * grid.y);
-  if (lane == 0u) partCount = 0u;
   if (lane < 4u) totals[lane] = 0u;
   barrier();
   for (uint b = lane; b < count; b += lanes) {
@@ -185,11 +184,7 @@ void main() {
   for (uint b = lane; b < count; b += lanes) {
     if (blocks[b].parent == kNoPart) continue;
     uint first = firstOf(b);
-    if (first == b) {
-      uint at = atomicAdd(partCount, 1u);
-      if (at < kMostParts) parts[at] = b;
-      continue;
-    }
+    if (first == b) continue;
     for (int i = 0; i < 4; ++i) {
       if (blocks[b].counts[i] != 0u) atomicAdd(blocks[first].counts[i], blocks[b].counts[i]);
     }
@@ -200,7 +195,14 @@ void main() {
   }
   memoryBarrierBuffer();
   barrier();
-  if (lane == 0u) partCount = min(partCount, kMostParts);
+  if (lane == 0u) {
+    // In the order of places, so that each run gives the same numbers.
+    uint found = 0u;
+    for (uint b = 0u; b < count && found < kMostParts; ++b) {
+      if (blocks[b].parent == b) parts[found++] = b;
+    }
+    partCount = found;
+  }
   barrier();
   for (uint i = lane; i < partCount; i += lanes) {
     uint first = parts[i];

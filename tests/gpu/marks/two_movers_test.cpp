@@ -141,7 +141,7 @@ TEST_F(TwoMoversTest, AnchorsGoWithTheirOwnMover) {
     const Discs discs = passing(i);
     seeDiscs(discs);
     if (i < 10 || i > 18) continue;
-    for (const Anchor& anchor : anchors()) {
+    for (const Anchor& anchor : set_->read()) {
       if (!anchor.isStaying() || anchor.isBorn() || (anchor.state & Anchor::kMover) == 0) continue;
       const std::size_t disc = discAt(discs, anchor.px, -3.0);
       if (disc == kMovers || discAt(discs, anchor.px, 3.0) != disc) continue;
