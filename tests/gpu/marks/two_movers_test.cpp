@@ -79,17 +79,17 @@ class TwoMoversTest : public MotionLayersTest {
   /// Of the cells in which a disc is seen, 3 px from any border: how many have each number, or none.
   std::array<std::array<int, 4>, kMovers> numbersOf(const Discs& discs) const {
     constexpr double kBorder = 3.0;
-    const std::vector<glm::vec4> shares = texelsOf(layers_->shares());
-    const int width = layers_->shares().size().width;
+    const hal::Image shares = support::readRgba8(layers_->shares());
+    const hal::FrameSize size = shares.size();
     std::array<std::array<int, 4>, kMovers> found{};
-    for (std::size_t i = 0; i < shares.size(); ++i) {
-      const auto index = static_cast<int>(i);
-      const glm::dvec2 px = (glm::dvec2(index % width, index / width) + 0.5) *
-                            static_cast<double>(MotionLayers::kCellPixels);
+    for (int i = 0; i < size.width * size.height; ++i) {
+      const glm::ivec2 cell(i % size.width, i / size.width);
+      const glm::dvec2 px =
+          (glm::dvec2(cell) + 0.5) * static_cast<double>(MotionLayers::kCellPixels);
       const std::size_t disc = discAt(discs, px, -kBorder);
       if (disc == kMovers || discAt(discs, px, kBorder) != disc) continue;
-      const glm::vec4& s = shares[i];
-      ++found.at(disc).at(s.r > 0.5F ? 1 : s.g > 0.5F ? 2 : s.b > 0.5F ? 3 : 0);
+      const std::uint8_t* const s = shares.view().planes[0].bytes.data() + std::ptrdiff_t{4} * i;
+      ++found.at(disc).at(s[0] > 127 ? 1 : s[1] > 127 ? 2 : s[2] > 127 ? 3 : 0);
     }
     return found;
   }
