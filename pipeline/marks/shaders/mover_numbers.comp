@@ -16,6 +16,7 @@ uniform int reach;  // 1, of the cells around; a uniform, so that compilers keep
 
 const float kAlike = 0.04;  // of colour: at this difference, a cell counts half
 const int kFarthest = 8;    // cells
+const float kEnough = 0.5;  // of votes: fewer are of cells of other colours
 
 void main() {
   ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
@@ -28,7 +29,7 @@ void main() {
   vec4 part = floor(255.0 * texelFetch(numbers, cell / kLayerBlock, 0) + 0.5);
   vec3 now = texelFetch(picture, cell, 0).rgb;
   vec3 votes = vec3(0.0);
-  for (int stride = 1; stride <= kFarthest && votes.x + votes.y + votes.z == 0.0; stride *= 2) {
+  for (int stride = 1; stride <= kFarthest && max(votes.x, max(votes.y, votes.z)) < kEnough; stride *= 2) {
     for (int y = -reach; y <= reach; ++y) {
       for (int x = -1; x <= 1; ++x) {
         ivec2 at = clamp(cell + stride * ivec2(x, y), ivec2(0), size - 1);
