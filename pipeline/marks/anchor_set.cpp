@@ -178,7 +178,7 @@ void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionFie
       .storage("Bodies", onSurfaces ? *frame.surfaces->bodies : noBodies);
   motion.bind(image);
   image.texture("picture", *frame.colour)
-      .texture("movers", layerTextures.labelsOf(layers))
+      .texture("moverShares", layerTextures.sharesOf(layers))
       .texture("background", layerTextures.backgroundOf(layers))
       .texture("moverMotion", layerTextures.moverMotionOf(layers))
       .set("noise", static_cast<float>(motion.noiseLevels() / 255.0))
@@ -247,6 +247,7 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .set("hasPatches", before != nullptr && frame.hasObjects ? 1 : 0)
       .set("patchPixels", static_cast<float>(field != nullptr ? field->regionPixels(0) : 1.0))
       .texture("movers", layerTextures.labelsOf(layers))
+      .texture("moverShares", layerTextures.sharesOf(layers))
       .texture("depth", hasDepth ? *frame.depth : motion.backward())
       .set("depthRange", hasDepth ? glm::vec2(frame.nearMetres, frame.farMetres) : glm::vec2(0.0F))
       .set("focalPx", hasDepth ? focalOf(frame).y : 1.0F)

@@ -32,6 +32,7 @@ struct FrontMovers::State {
       : find(library.compute("pipeline/marks/shaders/front_movers.comp")),
         show(library.compute("pipeline/marks/shaders/front_labels.comp")),
         labels(TextureFormat::kRgba16f, size, TextureFilter::kLinear),
+        shares(TextureFormat::kRgba8, size, TextureFilter::kLinear),
         footprints(sizeof(GpuFootprints), gpu::BufferUsage::kDynamic) {
     for (gpu::Texture& each : fronts) {
       each = gpu::Texture(TextureFormat::kRgba16f, size, TextureFilter::kLinear);
@@ -45,6 +46,7 @@ struct FrontMovers::State {
   gpu::Program show;
   std::array<gpu::Texture, 2> fronts;
   gpu::Texture labels;
+  gpu::Texture shares;
   gpu::Buffer footprints;
   GpuFootprints staged;
   std::size_t now = 0;
@@ -87,7 +89,7 @@ FrontMovers::FrontMovers(const gpu::ShaderLibrary& library, hal::FrameSize cells
 FrontMovers::~FrontMovers() = default;
 
 void FrontMovers::update(const scene::ArFrame& frame, const gpu::Texture& moverLabels,
-                         bool isStanding, float stepSeconds) {
+                         const gpu::Texture& moverShares, bool isStanding, float stepSeconds) {
   State& s = *state_;
   assert(frame.hasObjects && moverLabels.size() == s.labels.size());
   s.write(frame);
@@ -96,10 +98,12 @@ void FrontMovers::update(const scene::ArFrame& frame, const gpu::Texture& moverL
   s.spread(frame, moverLabels, false, 0.0F);
   s.show.use()
       .texture("labels", moverLabels)
+      .texture("shares", moverShares)
       .texture("front", s.fronts.at(s.now))
       .texture("ids", *frame.ids)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .image("seenLabels", s.labels, ImageAccess::kWrite)
+      .image("seenShares", s.shares, ImageAccess::kWrite)
       .dispatch({s.labels.size().width, s.labels.size().height}, kStored);
 }
 
@@ -113,6 +117,10 @@ const gpu::Texture& FrontMovers::front() const {
 
 const gpu::Texture& FrontMovers::seenLabels() const {
   return state_->labels;
+}
+
+const gpu::Texture& FrontMovers::seenShares() const {
+  return state_->shares;
 }
 
 }  // namespace pleinair::marks

@@ -29,9 +29,9 @@ class FrontMovers {
   FrontMovers(FrontMovers&&) = delete;
   FrontMovers& operator=(FrontMovers&&) = delete;
 
-  /// Adds a frame. `labels`: MotionLayers' of all of the camera image, also behind models.
-  void update(const scene::ArFrame& frame, const gpu::Texture& labels, bool isStanding,
-              float stepSeconds);
+  /// Adds a frame. `labels`, `shares`: MotionLayers' of all of the camera image, also behind models.
+  void update(const scene::ArFrame& frame, const gpu::Texture& labels, const gpu::Texture& shares,
+              bool isStanding, float stepSeconds);
   /// Forgets the past.
   void reset();
 
@@ -41,6 +41,8 @@ class FrontMovers {
   const gpu::Texture& front() const;
   /// The labels of what is seen: 0 where a virtual model is and remains.
   const gpu::Texture& seenLabels() const;
+  /// The same of MotionLayers::shares().
+  const gpu::Texture& seenShares() const;
 
  private:
   struct State;

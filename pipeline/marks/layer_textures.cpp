@@ -18,6 +18,10 @@ const gpu::Texture& LayerTextures::labelsOf(const MotionLayers* layers) const {
   return layers != nullptr ? layers->labels() : none_;
 }
 
+const gpu::Texture& LayerTextures::sharesOf(const MotionLayers* layers) const {
+  return layers != nullptr ? layers->shares() : none_;
+}
+
 const gpu::Texture& LayerTextures::backgroundOf(const MotionLayers* layers) const {
   return layers != nullptr ? layers->background() : none_;
 }

@@ -29,6 +29,7 @@ constexpr float kFreshSeconds = 0.3F;
 constexpr hal::Duration kDoubted = std::chrono::seconds(3);
 constexpr unsigned kTurns = 2;  // shaders/motion_layers_tally.glsl
 constexpr std::size_t kTallied = 3;
+constexpr std::size_t kPartBytes = 60;  // shaders/mover_parts.glsl
 constexpr GLbitfield kStored = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                                GL_SHADER_STORAGE_BARRIER_BIT;
 
@@ -43,6 +44,12 @@ hal::FrameSize blocksOf(hal::FrameSize cells) {
           (cells.height + kBlockCells - 1) / kBlockCells};
 }
 
+/// Those of all movers, one above the other.
+hal::FrameSize blocksOfAll(hal::FrameSize cells) {
+  const hal::FrameSize blocks = blocksOf(cells);
+  return {blocks.width, MotionLayers::kMostMovers * blocks.height};
+}
+
 }  // namespace
 
 struct MotionLayers::State {
@@ -54,13 +61,20 @@ struct MotionLayers::State {
         findEdges(library.compute(kShaders + "mover_edges.comp")),
         findMotion(library.compute(kShaders + "mover_motion.comp")),
         join(library.compute(kShaders + "motion_layers_join.comp")),
+        carry(library.compute(kShaders + "mover_carry.comp")),
+        countParts(library.compute(kShaders + "mover_parts_count.comp")),
+        findParts(library.compute(kShaders + "mover_parts.comp")),
+        number(library.compute(kShaders + "mover_numbers.comp")),
         front(library, size),
         candidates(TextureFormat::kRgba8, size),
         evidence(TextureFormat::kRgba16f, size),
         ground(TextureFormat::kRgba16f, blocksOf(size)),
-        normals(TextureFormat::kRgba16f, blocksOf(size)),
-        normalFlow(TextureFormat::kRgba16f, blocksOf(size)),
-        moverMotion(TextureFormat::kRgba16f, blocksOf(size)),
+        carried(TextureFormat::kRgba8, size),
+        numbers(TextureFormat::kRgba8, blocksOf(size)),
+        parts(kPartBytes * static_cast<std::size_t>(blocksOf(size).pixels()), gpu::BufferUsage::kDynamic),
+        normals(TextureFormat::kRgba16f, blocksOfAll(size)),
+        normalFlow(TextureFormat::kRgba16f, blocksOfAll(size)),
+        moverMotion(TextureFormat::kRgba16f, blocksOfAll(size)),
         tally(kTallied * kTurns * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
         noIds(TextureFormat::kR32ui, {1, 1}),
         noMotion(TextureFormat::kRgba16f, {1, 1}) {
@@ -68,6 +82,7 @@ struct MotionLayers::State {
     for (std::size_t i = 0; i < 2; ++i) {
       pictures.at(i) = {TextureFormat::kRgba8, size, TextureFilter::kLinear};
       labels.at(i) = {TextureFormat::kRgba16f, size, TextureFilter::kLinear};
+      shares.at(i) = {TextureFormat::kRgba8, size, TextureFilter::kLinear};
       backgrounds.at(i) = {TextureFormat::kRgba16f, size, TextureFilter::kLinear};
     }
   }
@@ -79,15 +94,23 @@ struct MotionLayers::State {
   gpu::Program findEdges;
   gpu::Program findMotion;
   gpu::Program join;
+  gpu::Program carry;
+  gpu::Program countParts;
+  gpu::Program findParts;
+  gpu::Program number;
   FrontMovers front;
   gpu::Texture candidates;
   gpu::Texture evidence;
   gpu::Texture ground;
+  gpu::Texture carried;
+  gpu::Texture numbers;
+  gpu::Buffer parts;
   gpu::Texture normals;
   gpu::Texture normalFlow;
   gpu::Texture moverMotion;
   std::array<gpu::Texture, 2> pictures;
   std::array<gpu::Texture, 2> labels;
+  std::array<gpu::Texture, 2> shares;
   std::array<gpu::Texture, 2> backgrounds;
   gpu::Buffer tally;
   gpu::Texture noIds;
@@ -114,6 +137,8 @@ struct MotionLayers::State {
                       const MotionField& motion) const;
   gpu::Program& begin(gpu::Program& program, const scene::ArFrame& frame, const MotionField& motion,
                       float stepSeconds) const;
+  /// Which mover each cell of this frame's labels belongs to.
+  void tellApart(const scene::ArFrame& frame, const MotionField& motion, float motionScale);
 };
 
 void MotionLayers::State::bindBackground(gpu::Program& program, const scene::ArFrame& frame,
@@ -137,6 +162,45 @@ gpu::Program& MotionLayers::State::begin(gpu::Program& program, const scene::ArF
       .set("hasPast", hasPast ? 1 : 0)
       .set("turn", turn)
       .set("stepSeconds", stepSeconds);
+}
+
+void MotionLayers::State::tellApart(const scene::ArFrame& frame, const MotionField& motion,
+                                    float motionScale) {
+  const std::size_t before = 1 - now;
+  const hal::FrameSize blockSize = numbers.size();
+  const glm::ivec2 blocks(blockSize.width, blockSize.height);
+  motion.bind(carry.use());
+  bindBackground(carry, frame, motion);
+  carry.texture("labels", labels.at(now))
+      .texture("picture", pictures.at(now))
+      .texture("lastPicture", pictures.at(before))
+      .texture("moverShares", shares.at(before))
+      .texture("moverMotion", moverMotion)
+      .set("hasPast", hasPast ? 1 : 0)
+      .set("motionScale", motionScale)
+      .set("reach", 1)
+      .image("carried", carried, ImageAccess::kWrite)
+      .dispatch(cells(), kStored);
+  countParts.use()
+      .texture("labels", labels.at(now))
+      .texture("carried", carried)
+      .storage("Blocks", parts)
+      .set("grid", blocks)
+      .dispatch(blocks, kStored);
+  findParts.use()
+      .texture("moverMotion", moverMotion)
+      .storage("Blocks", parts)
+      .set("grid", blocks)
+      .image("numbers", numbers, ImageAccess::kWrite)
+      .dispatch({1, 1}, kStored);
+  number.use()
+      .texture("labels", labels.at(now))
+      .texture("picture", pictures.at(now))
+      .texture("carried", carried)
+      .texture("numbers", numbers)
+      .set("reach", 1)
+      .image("shares", shares.at(now), ImageAccess::kWrite)
+      .dispatch(cells(), kStored);
 }
 
 MotionLayers::MotionLayers(const gpu::ShaderLibrary& library, hal::FrameSize full)
@@ -169,6 +233,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .texture("labels", s.labels.at(before))
       .texture("motion", motion.backward())
       .texture("moverMotion", s.moverMotion)
+      .texture("moverShares", s.shares.at(before))
       .set("noise", static_cast<float>(noise))
       .set("motionScale", motionScale)
       .image("candidates", s.candidates, ImageAccess::kWrite)
@@ -200,10 +265,11 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .image("labels", s.labels.at(s.now), ImageAccess::kWrite)
       .image("backgroundNow", s.backgrounds.at(s.now), ImageAccess::kWrite)
       .dispatch(s.cells(), kStored);
-  const glm::ivec2 blocks(s.moverMotion.size().width, s.moverMotion.size().height);
+  s.tellApart(frame, motion, motionScale);
+  const glm::ivec2 blocks(s.numbers.size().width, s.numbers.size().height);
   motion.bindBackward(s.findEdges.use());
   s.bindBackground(s.findEdges, frame, motion);
-  s.findEdges.texture("labels", s.labels.at(s.now))
+  s.findEdges.texture("moverShares", s.shares.at(s.now))
       .texture("picture", s.pictures.at(s.now))
       .texture("moverMotion", s.moverMotion)
       .set("motionScale", motionScale)
@@ -216,7 +282,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .image("moverMotion", s.moverMotion, ImageAccess::kWrite)
       .dispatch(blocks, kStored);
   if (frame.hasObjects) {
-    s.front.update(frame, s.labels.at(s.now), s.hasPast && motion.isStanding(), step);
+    s.front.update(frame, s.labels.at(s.now), s.shares.at(s.now), s.hasPast && motion.isStanding(), step);
     s.hasFront = true;
   } else {
     s.forgetFront();
@@ -232,6 +298,10 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
 
 const gpu::Texture& MotionLayers::labels() const {
   return state_->hasFront ? state_->front.seenLabels() : state_->labels.at(state_->now);
+}
+
+const gpu::Texture& MotionLayers::shares() const {
+  return state_->hasFront ? state_->front.seenShares() : state_->shares.at(state_->now);
 }
 
 const gpu::Texture* MotionLayers::front() const {

@@ -32,8 +32,12 @@ struct MotionLayersOptions {
 /// A mover's plain parts, and those along an edge, go with the others; so do parts all around which
 /// it is, and which are not what is remembered there. What comes in from outside
 /// before a camera that stands is a mover at once. Virtual models are looked through: what moves
-/// behind them is known, too. One mover is not told from another. Under
-/// parallax, near things may count as movers. All calls on the thread of the GL context that was
+/// behind them is known, too. Under parallax, near things may count as movers.
+///
+/// Movers are told from one another by a number each, of kMostMovers. Parts that hang together when
+/// they are first seen are one mover. Its number goes with its motion, so that two that come together
+/// remain two; where both might be, it is the one whose colours were there. More movers than
+/// that share numbers, those far from one another. All calls on the thread of the GL context that was
 /// current at construction.
 class MotionLayers {
  public:
@@ -56,6 +60,9 @@ class MotionLayers {
   /// falling to 0 within 0.3 s. B: how long a mover has rested, A: how long it has been seen to
   /// move, s; below 0 where it has left.
   const gpu::Texture& labels() const;
+  /// RGBA8, LINEAR, as large: R, G, B: 1 where the movers 1, 2, 3 are. Their sum is R of labels().
+  const gpu::Texture& shares() const;
+  static constexpr int kMostMovers = 3;
   /// FrontMovers::front(): where virtual models are to be hidden, since a mover is before them.
   /// Null if the last frame had no models.
   const gpu::Texture* front() const;
@@ -67,9 +74,9 @@ class MotionLayers {
   /// texel. Throws hal::Failure (kUnsupported) where the GPU cannot read such a texture.
   hal::Image readMovers() const;
 
-  /// RGBA16F; a texel is kBlockCells² cells. RG: displacement of the movers' edges since
-  /// the previous frame, less the background's, px of the full image, times their weight; B: that
-  /// weight.
+  /// RGBA16F; a texel is kBlockCells² cells, of the movers 1 to kMostMovers one above the other. RG:
+  /// displacement of the mover's edges since the previous frame, less the background's, px of the
+  /// full image, times their weight; B: that weight.
   const gpu::Texture& moverMotion() const;
   static constexpr int kBlockCells = 8;
 

@@ -124,7 +124,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .texture("paint", *paint.background)
       .texture("moverPaint", *paint.movers)
       .texture("modelPaint", *paint.models)
-      .texture("movers", layerTextures.labelsOf(layers))
+      .texture("moverShares", layerTextures.sharesOf(layers))
       .texture("background", layerTextures.backgroundOf(layers))
       .texture("moverMotion", layerTextures.moverMotionOf(layers))
       .texture("finePaint", *paint.fineModels)

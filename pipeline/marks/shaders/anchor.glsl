@@ -16,6 +16,9 @@ struct Anchor {
 };
 
 const uint kSourceBits = 0x0Fu;
+// The number of its mover, less 1, if kMover.
+const uint kMoverNumberShift = 4u;
+const uint kMoverNumberBits = 0x30u;
 // Not alive: its place on a virtual surface is remembered (marks::AnchorSet). With kHidden, the place
 // is not seen in this frame.
 const uint kDormant = 0x80u;
@@ -57,6 +60,10 @@ uint rankOf(uint ageAndRank) { return ageAndRank >> 16u; }
 uint rankAt(float octaves) {
   return uint(clamp(kRankUnits * (octaves + kRankOrigin) + 0.5, 0.0, 65535.0));
 }
+
+// With kMover, from 1 on.
+int moverOf(uint state) { return 1 + int((state & kMoverNumberBits) >> kMoverNumberShift); }
+uint stateOnMover(int number) { return kMover | uint(number - 1) << kMoverNumberShift; }
 
 bool isAlive(uint state) { return (state & kAlive) != 0u; }
 // The state of a slot whose anchor has gone: those on virtual surfaces become dormant.

@@ -6,7 +6,7 @@
 //          Anchors store it packed in 32 bits.
 // Precision: highp.
 #include "pipeline/gpu/shaders/luma.glsl"
-#include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/shaders/mover_places.glsl"
 uniform highp sampler2D picture;
 uniform highp sampler2D background;
 uniform float noise;

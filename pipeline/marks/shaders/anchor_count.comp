@@ -33,6 +33,7 @@ void main() {
   if (!stays || !isInGrid(at)) return;
   int index = indexOf(at);
   if ((state & kMover) != 0u) {
+    if (isBehind) return;  // another mover is seen there
     atomicAdd(cells[index].onMovers, 1u);
     return;
   }

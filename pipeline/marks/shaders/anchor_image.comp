@@ -4,7 +4,7 @@
 //          hasObjects; bodies, the first of a model at firstModel; fullSize; onSurfaces: whether
 //          anchor_surface.comp has run;
 //          anchor_appearance.glsl's; margin: px beyond the border at which an anchor is removed;
-//          stepSeconds; memorySeconds: how long a covered or dormant anchor is kept; mover_labels.glsl's and
+//          stepSeconds; memorySeconds: how long a covered or dormant anchor is kept; mover_places.glsl's and
 //          mover_motion.glsl's; restsWithCamera: the camera stands, and movers are told apart;
 //          underModels: anchors that a model covers stay, as those do that a mover covers;
 //          follows: whether anchors move; if not, surface anchors rest like all others, and neither
@@ -39,6 +39,8 @@ const float kOutline = 5.0;       // px around a mover in which its outline may 
 const float kPlain = 0.006;       // of luma, with kPlainNoise deviations: shows half of a motion
 const float kPlainNoise = 2.0;
 const float kMaxFlowError = 8.0;  // px
+const float kCoveredMover = 1.5;  // s: so long an anchor of a mover stays behind another one
+const float kBesideAnother = 12.0;  // px: the measured motion may be that of another mover
 
 // The part of a displacement that the contrast around a place shows: all of it where there is
 // texture, what is across an edge, and none where nothing is seen.
@@ -66,11 +68,15 @@ vec2 seenPart(vec2 displacement, vec2 px) {
 // homography is the background's. Its plain parts, and those along an edge, go with the others.
 //
 // The background moves as one; a mover's motion must not carry it along.
-Moved measuredAt(vec2 px, float object, bool isOnMover, bool isBesideMover, Moved flowed,
+//
+// `mover`: the number of its mover, 0 for none.
+Moved measuredAt(vec2 px, float object, int mover, bool isBesideMover, Moved flowed,
                  float restError) {
+  bool isOnMover = mover != 0;
   bool isFlowKnown = flowed.error < kMaxFlowError;
+  bool isBesideAnother = isOnMover && isNearAnother(px, mover, kBesideAnother);
   vec2 own;
-  bool hasOwn = isOnMover && findMoverMotion(px + flowed.displacement, own);
+  bool hasOwn = isOnMover && findMoverMotion(isBesideAnother ? px : px + flowed.displacement, mover, own);
   if (isOnMover && !hasOwn && isFlowKnown) return flowed;
   bool isResting = !isOnMover && restsWithCamera && object == 0.0;
   if (isResting) return Moved(vec2(0.0), known.w, kSourcePicture | kStraight);
@@ -80,6 +86,7 @@ Moved measuredAt(vec2 px, float object, bool isOnMover, bool isBesideMover, Move
   if (hasOwn) {
     const float kError = 1.0;  // px
     if (!restsWithCamera) own += image.displacement;
+    isFlowKnown = isFlowKnown && !isBesideAnother;
     if (isFlowKnown) own += seenPart(flowed.displacement - own, px + own);
     return Moved(own, kError, isFlowKnown ? kSourceFlow : kSourceFlow | kStraight);
   }
@@ -169,6 +176,7 @@ void main() {
     return;
   }
   bool isOnMover = (state & kMover) != 0u;
+  int mover = isOnMover ? moverOf(state) : 0;
   bool wasCovered = (state & kCovered) != 0u;
   uint thing = object;  // that the camera image shows here
   if (isOnMover) {
@@ -179,7 +187,7 @@ void main() {
   bool isBesideMover = !isOnMover && known.z != 0.0 && isNearMover(px);
   Moved flowed = byFlow(px);
   float restError = stillError(px);
-  Moved moved = measuredAt(px, float(thing), isOnMover, isBesideMover, flowed, restError);
+  Moved moved = measuredAt(px, float(thing), mover, isBesideMover, flowed, restError);
   if (!isOnMover && onSurfaces && (state & kSourceBits) == kSourceSurface && isReal(object)) {
     Moved surfaceMoved = Moved(anchors[slot].displacement, anchors[slot].error, kSourceSurface);
     moved = betterOnSurface(moved, surfaceMoved, isBesideMover, flowed, restError);
@@ -209,20 +217,30 @@ void main() {
   if (isUnderModel) {
     isBehind = true;
   } else if (follows && !isHidden && isInside) {
-    vec2 mover = moverAt(px);
-    isBehind = !isOnMover && mover.r > (wasCovered ? 0.1 : 0.25);
+    vec3 shares = sharesAt(px);
+    float moving = sumOf(shares);
+    isBehind = !isOnMover && moving > (wasCovered ? 0.1 : 0.25);
     bool isOther = false;
     bool asksBackground = isBehind;
-    if (!isBehind) {
+    if (isOnMover && moving >= 0.35 && shareOf(shares, mover) < 0.35) {
+      // Another mover is before it; or its own one has another number now.
+      vec2 seen = remembered(looks, px, true);
+      isBehind = wasCovered || isUnlike(seen);
+      isGone = isGone || float(longer) > 256.0 * kCoveredMover;
+      if (!isBehind) {
+        mover = numberOf(shares);
+        looks = seen;
+      }
+    } else if (!isBehind) {
       looks = remembered(looks, px, !isOnMover && nearestMover(px, kOutline) > 0.1);
       isHidden = isMismatch(looks, (state & kHidden) != 0u);
       isOther = isOnMover && isUnlike(looks);
-      if (isOnMover && mover.r < 0.35) {
+      if (isOnMover && moving < 0.35) {
         // It has joined the background, or has left the anchor behind.
         isOnMover = false;
         isOther = isOther || !isNewBackground(px);
         if (isReal(objectOf(id))) object = objectOf(id);
-      } else if (wasCovered) {
+      } else if (wasCovered && !isOnMover) {
         isOther = false;
         asksBackground = isUnlike(looks);
       }
@@ -248,6 +266,6 @@ void main() {
     covered = longer;
     isGone = isGone || (state & kDying) != 0u || isForgotten;
   }
-  flags |= (isBehind ? kCovered : 0u) | (isOnMover ? kMover : 0u);
+  flags |= (isBehind ? kCovered : 0u) | (isOnMover ? stateOnMover(mover) : 0u);
   anchors[slot].state = isGone ? 0u : flags | (moved.source & kSourceBits) | (covered << kCoveredShift);
 }

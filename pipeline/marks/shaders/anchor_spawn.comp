@@ -7,7 +7,7 @@
 //          scale: of the image, in octaves; depth and depthRange, near and far in metres, 0: no depth;
 //          focalPx: of the full image; motion: MotionField's field; forms, surfaceMotion
 //          (ArFrame), patches, patchesBefore: TensorField's, with patchPixels a side, if
-//          hasPatches; mover_labels.glsl's.
+//          hasPatches; mover_labels.glsl's, mover_shares.glsl's.
 // Outputs: anchors; counts cleared for the next frame. One invocation per cell.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
@@ -40,6 +40,7 @@ uniform int target;
 #include "pipeline/scene/render/shaders/surface_form.glsl"
 
 #include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/shaders/mover_shares.glsl"
 
 const int kScan = 8;  // places along a cell's side
 const int kTries = 6;  // attempts in one part of the cell, then as many in the whole cell
@@ -177,7 +178,7 @@ void spawn(ivec2 cell, uint number, uint before, bool onObject, bool onMover, in
   // independent of the place, which came from the same hash
   born.seed = hashOf(hash ^ 0x9E3779B9u);
   born.surface = onMover ? 0u : id;  // a mover is before all real things
-  born.state = kAlive | kBorn | kSourceUnknown | (onMover ? kMover : 0u);
+  born.state = kAlive | kBorn | kSourceUnknown | (onMover ? stateOnMover(max(numberOf(sharesAt(px)), 1)) : 0u);
   if (born.surface != 0u) {
     ivec2 pixel = pixelAt(px);
     born.px = (vec2(pixel) + 0.5) / pixelsOfFull;

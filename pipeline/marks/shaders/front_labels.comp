@@ -1,14 +1,16 @@
 // Purpose: labels of movers where they are seen: not where a virtual model is before them
 //          (marks::FrontMovers).
-// Inputs:  labels: MotionLayers', also behind models; front (front_movers.comp); ids (ArFrame), of
+// Inputs:  labels, shares: MotionLayers', also behind models; front (front_movers.comp); ids (ArFrame), of
 //          pixelsOfFull, in which models are not hidden yet.
-// Outputs: seenLabels RGBA16F: the labels, 0 on models. One invocation per cell.
+// Outputs: seenLabels RGBA16F, seenShares RGBA8: the same, 0 on models. One invocation per cell.
 // Precision: highp.
 #include "pipeline/marks/shaders/layer_cells.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 16, local_size_y = 4) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D seenLabels;
+layout(rgba8, binding = 1) writeonly uniform highp image2D seenShares;
 uniform highp sampler2D labels;
+uniform highp sampler2D shares;
 uniform highp sampler2D front;
 uniform highp usampler2D ids;
 uniform vec2 pixelsOfFull;
@@ -20,4 +22,5 @@ void main() {
   uint object = objectOf(texelFetch(ids, min(pixel, textureSize(ids, 0) - 1), 0).r);
   bool isHidden = isVirtual(object) && texelFetch(front, cell, 0).g <= 0.5;
   imageStore(seenLabels, cell, isHidden ? vec4(0.0) : texelFetch(labels, cell, 0));
+  imageStore(seenShares, cell, isHidden ? vec4(0.0) : texelFetch(shares, cell, 0));
 }

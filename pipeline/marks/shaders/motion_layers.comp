@@ -1,7 +1,7 @@
 // Purpose: compares each cell of the picture with the remembered background and with the previous
 //          frame, and carries its label along the motion (marks/motion_layers.h).
 // Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's; picture (ArFrame::camera());
-//          lastPicture, background, labels: the previous frame's, if hasPast; motion: MotionField's
+//          lastPicture, background, labels, mover_shares.glsl's: the previous frame's, if hasPast; motion: MotionField's
 //          field; mover_motion.glsl's, of the previous frame, and motionScale, this step over that;
 //          noise: sigma of a cell, in [0, 1].
 // Outputs: candidates RGBA8: how surely it is other content than the background, the carried label,
@@ -16,6 +16,7 @@
 #include "pipeline/marks/shaders/motion_layers.glsl"
 #include "pipeline/marks/shaders/motion_layers_tally.glsl"
 #include "pipeline/marks/shaders/mover_motion.glsl"
+#include "pipeline/marks/shaders/mover_shares.glsl"
 layout(local_size_x = 16, local_size_y = 4) in;
 layout(rgba8, binding = 0) writeonly uniform highp image2D candidates;
 layout(rgba16f, binding = 1) writeonly uniform highp image2D evidence;
@@ -117,17 +118,27 @@ void main() {
   if (!isMoving && changed > 0.5) label.a = 0.0;  // something else is seen there
   // A mover has uncovered the place: the motion beside it is that mover's.
   bool hasLeft = label.a < 0.0 && changed <= 0.5;
-  vec2 own = vec2(0.0);
   bool mayBeMover = !isMoving && !hasLeft &&
                     (max(label.r, other) > 0.5 || unlike > kLeastUnlike + kNoiseDeviations * noise);
   if (mayBeMover) {
     // A plain part of a mover goes with its other parts, or rests where it was.
-    bool goes = findMoverMotion(px, own) && length(own) > kMovedPx;
-    vec2 back = goes ? from - motionScale * own : from;
-    vec4 carried = labelBefore(back);
-    isCarried = goes && carried.r > 0.5;
-    if (isCarried) label = vec4(1.0, label.g, min(label.b, kCarriedRest), max(label.a, carried.a));
-    if (carried.r > 0.5 && isLikeMover(now, back, unlike)) other = max(other, kSeenOther);
+    int here = isInPicture(from) ? numberAt(from) : 0;
+    bool rests = true;
+    for (int number = 1; number <= kMostMovers; ++number) {
+      vec2 own;
+      bool goes = findMoverMotion(px, number, own) && length(own) > kMovedPx;
+      if (!goes) continue;
+      rests = rests && here != 0 && here != number;
+      vec2 back = from - motionScale * own;
+      int before = isInPicture(back) ? numberAt(back) : number;
+      if (before != 0 && before != number) continue;
+      vec4 carried = labelBefore(back);
+      if (carried.r <= 0.5) continue;
+      isCarried = true;
+      label = vec4(1.0, label.g, min(label.b, kCarriedRest), max(label.a, carried.a));
+      if (isLikeMover(now, back, unlike)) other = max(other, kSeenOther);
+    }
+    if (rests && label.r > 0.5 && isLikeMover(now, from, unlike)) other = max(other, kSeenOther);
   }
   if (isMoving) {
     vec2 back = px - moved.xy;

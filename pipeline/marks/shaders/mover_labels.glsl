@@ -18,18 +18,4 @@ float movingAt(vec2 px) {
   return label.r * (1.0 - smoothstep(fade.x, fade.y, rest));
 }
 
-// The largest label at a place and at this distance from it, in px.
-float nearestMover(vec2 px, float reach) {
-  float most = moverAt(px).r;
-  for (int i = 0; i < 4; ++i) {
-    float along = i < 2 ? -reach : reach;
-    most = max(most, moverAt(px + vec2(i % 2 == 0 ? along : 0.0, i % 2 == 0 ? 0.0 : along)).r);
-  }
-  return most;
-}
-
-// Whether a mover is so near that the measured motion may be its own.
-bool isNearMover(vec2 px) {
-  const float kNear = 14.0;
-  return nearestMover(px, kNear) > 0.25;
-}
+#include "pipeline/marks/shaders/mover_near.glsl"

@@ -1,22 +1,28 @@
-// Purpose: the motion of the mover at a place, from the edges around it.
+// Purpose: the motion of a mover at a place, from its edges around it.
 // Inputs:  moverMotion (mover_motion.comp); layer_cells.glsl and layer_blocks.glsl before it.
 // Outputs: displacement in a frame, less the background's, px of the full image.
 // Precision: highp.
 uniform highp sampler2D moverMotion;
 
-// False if no mover near has edges.
-bool findMoverMotion(vec2 px, out vec2 displacement) {
+// Blocks of one mover: the movers' are one above the other.
+ivec2 sizeOfMotion() {
+  ivec2 size = textureSize(moverMotion, 0);
+  return ivec2(size.x, max(size.y / 3, 1));
+}
+
+// False if the mover with this number, from 1 on, has no edges near.
+bool findMoverMotion(vec2 px, int number, out vec2 displacement) {
   vec2 at = px / (kLayerCellPixels * float(kLayerBlock)) - 0.5;
   ivec2 nearest = ivec2(floor(at + 0.5));
-  ivec2 last = textureSize(moverMotion, 0) - 1;
+  ivec2 size = sizeOfMotion();
+  int row = (number - 1) * size.y;
   vec3 sum = vec3(0.0);
   ivec2 first = max(nearest - 2, ivec2(0));
-  last = min(nearest + 2, last);
+  ivec2 last = min(nearest + 2, size - 1);
   for (int y = first.y; y <= last.y; ++y) {
     for (int x = first.x; x <= last.x; ++x) {
-      ivec2 block = ivec2(x, y);
-      vec2 away = vec2(block) - at;
-      sum += exp(-0.7 * dot(away, away)) * texelFetch(moverMotion, block, 0).xyz;
+      vec2 away = vec2(x, y) - at;
+      sum += exp(-0.7 * dot(away, away)) * texelFetch(moverMotion, ivec2(x, row + y), 0).xyz;
     }
   }
   displacement = sum.xy / max(sum.z, 1e-6);

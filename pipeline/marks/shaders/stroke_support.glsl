@@ -2,7 +2,7 @@
 //          there: those of its own patch, segment or layer.
 // Inputs:  field: tensors to follow, detailField: tensors with the detail; modelField,
 //          modelDetailField, moverField: those of virtual objects and of movers, each with its
-//          scale, px of the full image to texture coordinates; mover_labels.glsl's and
+//          scale, px of the full image to texture coordinates; mover_places.glsl's and
 //          mover_motion.glsl's; paint, modelPaint, moverPaint: the reduced images of the
 //          background, of models and of movers; finePaint, fineGround: the finest of models and of
 //          the background; paintTexel: the width of modelPaint's texels, px of the full image;
@@ -13,7 +13,7 @@
 //          mover's motion, px a frame, from which and up to which it grows; clips: strokes end at
 //          the borders of models, patches and movers.
 // Outputs: functions. Precision: highp.
-#include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/shaders/mover_places.glsl"
 #include "pipeline/marks/shaders/mover_motion.glsl"
 #include "pipeline/marks/shaders/stroke_border.glsl"
 #include "pipeline/scene/render/shaders/surface_form.glsl"
@@ -50,6 +50,7 @@ struct Support {
   uint label;
   bool isMixed;  // the reduced image mixes its colours with those of what is beside it
   bool isOnMover;
+  int mover;  // its number
   float looseness;  // how much looser it is painted, in [0, 1]
   vec2 along;       // a tensor, of strokes along the mover's motion
 };
@@ -59,10 +60,10 @@ ivec2 pixelAt(vec2 px) {
 }
 
 uint labelsAt(vec2 px) { return hasLabels ? texelFetch(labels, pixelAt(px), 0).r : 0u; }
-// The label of a surface; movers are told by mover_labels.glsl.
+// The label of a surface; movers are told by mover_places.glsl.
 uint labelOfSurface(uint texel) {
   uint label = texel & labelMask;
-  return label == kMoverLabel ? 0u : label;
+  return isMoverLabel(label) ? 0u : label;
 }
 uint labelAt(vec2 px) { return labelOfSurface(labelsAt(px)); }
 
@@ -84,11 +85,13 @@ bool isMixedAt(vec2 px, uint label, bool hasOthers) {
 }
 
 Support supportOf(bool isModel, uint label, bool isOnMover, vec2 px) {
-  Support on = Support(isModel, label, false, isOnMover, 0.0, kUpright);
+  int mover = isOnMover ? moverOfLabel(label) : 1;
+  Support on = Support(isModel, label, false, isOnMover, mover, 0.0, kUpright);
   bool hasOthers = isModel || (hasSegments && !isOnMover && label != 0u);
-  on.isMixed = isMixedAt(px, label, clips && hasOthers);
+  on.isMixed = isOnMover ? clips && isNearAnother(px, mover, 2.0 * paintTexel)
+                         : isMixedAt(px, label, clips && hasOthers);
   vec2 moved;
-  if (!isOnMover || looseness <= 0.0 || !findMoverMotion(px, moved)) return on;
+  if (!isOnMover || looseness <= 0.0 || !findMoverMotion(px, mover, moved)) return on;
   on.looseness = looseness * smoothstep(loosePx.x, max(loosePx.y, loosePx.x + 1e-3), length(moved));
   on.along = vec2(moved.y * moved.y - moved.x * moved.x, -2.0 * moved.x * moved.y) /
              max(dot(moved, moved), 1e-6);
@@ -117,7 +120,7 @@ vec2 directionAt(vec2 px, Support on) {
 // The colour of a patch or segment within a texel of the reduced image, where that mixes it.
 vec4 ownColour(vec2 px, Support on) {
   vec4 sum = vec4(0.0);
-  int taps = on.isMixed ? 9 : 0;
+  int taps = on.isMixed && !on.isOnMover ? 9 : 0;
   for (int i = 0; i < taps; ++i) {
     vec2 at = px + 0.4 * paintTexel * (vec2(i % 3, i / 3) - 1.0);
     if (!mayCover(on.label, labelAt(at))) continue;
@@ -125,6 +128,25 @@ vec4 ownColour(vec2 px, Support on) {
                       : textureLod(fineGround, at / fullSize, 0.0);
   }
   return sum;
+}
+
+// The colour of a mover beside another one: of places around, those count that are more its own.
+vec4 ownOfMover(vec2 px, Support on) {
+  vec4 sum = vec4(0.0);
+  int taps = on.isMixed && on.isOnMover ? 9 : 0;
+  for (int i = 0; i < taps; ++i) {
+    vec2 at = px + paintTexel * (vec2(i % 3, i / 3) - 1.0);
+    vec3 shares = sharesAt(at);
+    float own = max(2.0 * shareOf(shares, on.mover) - sumOf(shares), 0.0);
+    sum += own * textureLod(moverPaint, at / fullSize, 0.0);
+  }
+  return sum;
+}
+
+// Whether a place is beyond the border of the stroke's mover, or of the background.
+bool isBeyond(vec2 px, Support on) {
+  vec3 shares = sharesAt(px);
+  return on.isOnMover ? shareOf(shares, on.mover) <= 0.5 : sumOf(shares) > 0.5;
 }
 
 // The colour of the stroke's own patch or layer, if any of it is near.
@@ -136,7 +158,8 @@ vec3 colourAt(vec2 px, Support on) {
     seen = on.isModel ? textureLod(modelPaint, at, 0.0) : textureLod(paint, at, 0.0);
   }
   if (!on.isModel) {
-    vec4 mover = textureLod(moverPaint, at, 0.0);
+    vec4 mover = ownOfMover(px, on);
+    if (mover.a <= 0.0) mover = textureLod(moverPaint, at, 0.0);
     seen = on.isOnMover ? mover + kOthers * seen : seen + kOthers * mover;
   }
   return seen.rgb / max(seen.a, 1e-4);

@@ -232,7 +232,7 @@ void main() {
   bool isOnMover = (state & kMover) != 0u;
   bool isBehind = (state & kCovered) != 0u;
   // A mover has left it behind. It would be drawn over the mover as long as it kept its label.
-  bool isLeft = !isOnMover && labelOfStroke(strokes[slot].state) == kMoverLabel;
+  bool isLeft = !isOnMover && isMoverLabel(labelOfStroke(strokes[slot].state));
   vec2 found = isNew || isOnMover || isLeft ? vec2(0.0) : whatIsBefore(slot, px);
   bool isBeside = found.x > 0.1;
   if (!isNew && ((state & kHidden) != 0u || isBehind || isBeside)) {
@@ -240,7 +240,7 @@ void main() {
     if (!beginsAnew(slot, state, px, isBeside, found.y > 0.0, isLeft)) return;
     isNew = true;
   }
-  uint label = isOnMover ? kMoverLabel : 0u;
+  uint label = isOnMover ? labelOfMover(moverOf(state)) : 0u;
   if (!isModel && !isOnMover) label = labelOfGround(px, labelOfStroke(strokes[slot].state), isNew);
   if (isModel) {
     // That of its birth: its triangle does not change.

@@ -140,9 +140,9 @@ void walk(int side, vec2 from, Support on) {
     vec3 own = walks[gl_LocalInvocationIndex].colour;
     vec3 there = goesOn ? colourAt(at, on) : own;
     float difference = apart(there, own);
-    if (goesOn && clips && (moverAt(at).r > 0.5) != on.isOnMover) {
+    if (goesOn && clips && isBeyond(at, on)) {
       // It does not cross a mover's border.
-      bool isEarly = (moverAt(at - 0.5 * segment * direction).r > 0.5) != on.isOnMover;
+      bool isEarly = isBeyond(at - 0.5 * segment * direction, on);
       arm.length = min(arm.length, float(i) + (isEarly ? 0.25 : 0.75));
       goesOn = false;
     }

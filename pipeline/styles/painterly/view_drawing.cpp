@@ -58,6 +58,7 @@ void ViewDrawing::showMovers(const scene::ArFrame& frame, const marks::MotionLay
   movers_.use()
       .texture("picture", *frame.colour)
       .texture("movers", layerTextures_.labelsOf(movers))
+      .texture("moverShares", layerTextures_.sharesOf(movers))
       .texture("background", layerTextures_.backgroundOf(movers))
       .set("size", sizeOf(frame))
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))

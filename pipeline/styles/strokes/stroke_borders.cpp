@@ -15,7 +15,7 @@ void StrokeBorders::draw(const scene::ArFrame& frame, const marks::MotionLayers*
   program_.texture("forms", frame.hasObjects ? *frame.forms : noForms_)
       .texture("depth", hasDepth ? *frame.depth : *frame.colour)
       .set("depthRange", hasDepth ? glm::vec2(frame.nearMetres, frame.farMetres) : glm::vec2(0.0F))
-      .texture("movers", layerTextures_.labelsOf(movers))
+      .texture("moverShares", layerTextures_.sharesOf(movers))
       .texture("picture", *frame.colour)
       .texture("before", before != nullptr ? *before : noForms_)
       .set("hasObjects", frame.hasObjects ? 1 : 0)

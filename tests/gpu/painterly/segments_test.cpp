@@ -85,7 +85,7 @@ class SegmentsTest : public PainterlyTest {
     gpu::Program program = library_.fragmentPass("pipeline/styles/strokes/shaders/borders.frag");
     marks::SegmentMap::bind(program.use(), &map_, borders_[0]);
     program.texture("forms", borders_.at(1 - now_))
-        .texture("movers", layerTextures_->labelsOf(nullptr))
+        .texture("moverShares", layerTextures_->sharesOf(nullptr))
         .texture("picture", *frame.colour)
         .texture("before", borders_.at(1 - now_))
         .set("hasObjects", 0)

@@ -7,7 +7,8 @@
 // Inputs, outputs: packed, or in parts.
 // Precision: integers; highp.
 const uint kLabels = 4096u;
-const uint kMoverLabel = kLabels - 1u;  // of what moves by itself before the camera
+const uint kMostMoverLabels = 3u;
+const uint kMoverLabel = kLabels - 1u;  // of what moves by itself before the camera: the first mover
 const float kLineStep = 3.14159265 / 4096.0;
 const uint kOnLimb = 1u << 29u;
 const uint kAtJoint = 1u << 30u;
@@ -23,12 +24,16 @@ vec2 cornersAlong(uint drawn) {
 float clarityOf(uint form) { return float(form >> 24u & 31u) / 31.0; }
 bool isDeclared(uint form) { return (form & kDeclared) != 0u; }
 
-// Up to 4,094 patches of one object have different labels; the ranges of objects whose numbers
+// Up to 4,092 patches of one object have different labels; the ranges of objects whose numbers
 // differ by less than 12 begin 222 apart at least. 0 is the camera image's, also where an occluder
 // is.
 uint labelOfPatch(uint object, uint number) {
-  return 1u + (object * 2531u + number) % (kLabels - 2u);
+  return 1u + (object * 2531u + number) % (kLabels - 1u - kMostMoverLabels);
 }
+// Of a mover, from 1 on.
+uint labelOfMover(int number) { return kMoverLabel + 1u - uint(number); }
+bool isMoverLabel(uint label) { return label < kLabels && label >= kLabels - kMostMoverLabels; }
+int moverOfLabel(uint label) { return int(kLabels - label); }
 uint labelOf(uint form) { return form & 4095u; }
 
 // Whether one of two pixels is on the limb's side of a joint and the other on the trunk's: unless a

@@ -1,7 +1,7 @@
 // Purpose: debug views of what moves by itself: movers over the picture, the redder the surer, violet
-//          while they rest, and blue where the background is hardly known; or the background behind
-//          them.
-// Inputs:  picture; mover_labels.glsl's; background (marks::MotionLayers); size and pixelsOfFull: of
+//          while they rest, and blue where the background is hardly known; the second and third mover
+//          have green and blue for red; or the background behind them.
+// Inputs:  picture; mover_labels.glsl's, mover_shares.glsl's; background (marks::MotionLayers); size and pixelsOfFull: of
 //          the frame; view: VIEW_MOVERS or VIEW_BACKGROUND.
 // Outputs: RGBA8, sRGB-coded, opaque. Precision: highp for places.
 uniform sampler2D picture;
@@ -11,6 +11,7 @@ uniform vec2 pixelsOfFull;
 uniform int view;
 layout(location = 0) out vec4 colour;
 #include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/shaders/mover_shares.glsl"
 
 const float kSureSeconds = 0.2;     // seen to move for so long: motion_layers.glsl's kMatureSeconds
 const vec2 kRestSeconds = vec2(0.1, 1.0);
@@ -28,6 +29,8 @@ void main() {
   shown = mix(shown, vec3(0.9, 0.75, 0.1), 0.5 * mover.g);
   vec3 moving = mix(vec3(1.0, 0.6, 0.4), vec3(0.85, 0.1, 0.1), clamp(label.a / kSureSeconds, 0.0, 1.0));
   moving = mix(moving, vec3(0.45, 0.1, 0.7), smoothstep(kRestSeconds.x, kRestSeconds.y, label.b));
+  int number = numberAt(px);
+  moving = number == 2 ? moving.grb : number == 3 ? moving.gbr : moving;
   shown = mix(shown, moving, 0.6 * mover.r);
   if (view == VIEW_BACKGROUND) shown = known.a > 0.5 ? known.rgb : vec3(0.0);
   colour = vec4(shown, 1.0);

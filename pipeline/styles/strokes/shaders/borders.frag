@@ -1,11 +1,11 @@
 // Purpose: the borders at which strokes are clipped: those of virtual objects and of their patches
-//          against each other and against real content, and those of movers against the
-//          background, two pixels wide, so that a clipped edge is smooth; and those of the camera
+//          against each other and against real content, and those of movers against
+//          each other and the background, two pixels wide, so that a clipped edge is smooth; and those of the camera
 //          image's segments. Occluders count as real: they hide models, but the image goes on over
 //          their edges. Where trunk and limb meet on a smooth surface, the border is open: strokes
 //          of both fade out beyond it.
 // Inputs:  forms and depth (scene::ArFrame) if hasObjects, within objectBounds; depthRange: 0: no depth;
-//          mover_labels.glsl's; segments.glsl's; picture: the frame's; before: the previous frame's
+//          mover_places.glsl's; segments.glsl's; picture: the frame's; before: the previous frame's
 //          output if isHeld, while the camera stands; size, pixelsOfFull: of the frame.
 // Outputs: R32UI, packed as in stroke_border.glsl.
 // Precision: integers; highp for places.
@@ -21,11 +21,15 @@ uniform vec4 objectBounds;
 uniform bool isHeld;
 uniform vec2 size;
 uniform vec2 pixelsOfFull;
-#include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/shaders/mover_places.glsl"
 #include "pipeline/marks/shaders/segments.glsl"
 layout(location = 0) out uint border;
 
-float moverOf(ivec2 p) { return moverAt((vec2(p) + 0.5) / pixelsOfFull).r; }
+vec3 sharesOf(ivec2 p) { return sharesAt((vec2(p) + 0.5) / pixelsOfFull); }
+
+uint labelOfShares(vec3 shares) {
+  return sumOf(shares) > 0.5 ? labelOfMover(numberOf(shares)) : 0u;
+}
 
 // Whether objects are seen at the pixel or beside it.
 bool isNearObjects(vec2 p) {
@@ -36,7 +40,7 @@ bool isNearObjects(vec2 p) {
 // What is known of all pixels around one.
 struct Around {
   bool hasObjects;  // there may be some
-  bool isPlain;     // all of them belong to movers, or none does
+  bool isPlain;     // all of them belong to one mover, or none does
   uint plain;       // their label then
 };
 
@@ -44,7 +48,7 @@ uint labelAt(ivec2 p, Around around) {
   uint label = around.hasObjects ? labelOf(texelFetch(forms, p, 0).r) : 0u;
   if (label != 0u) return label;
   if (around.isPlain) return around.plain;
-  return moverOf(p) > 0.5 ? kMoverLabel : 0u;
+  return labelOfShares(sharesOf(p));
 }
 
 float depthAt(ivec2 p, ivec2 last) {
@@ -104,10 +108,11 @@ void main() {
   ivec2 last = ivec2(size) - 1;
   // Labels of movers are half as fine as the full image: where one is exactly 0 or 1, so it is all
   // around. A loop that no invocation enters costs nothing on software renderers.
-  float mover = moverOf(p);
+  vec3 movers = sharesOf(p);
+  float mover = max(movers.r, max(movers.g, movers.b));
   Around around = Around(isNearObjects(gl_FragCoord.xy),
                          pixelsOfFull.x > 0.99 && (mover == 0.0 || mover == 1.0),
-                         mover > 0.5 ? kMoverLabel : 0u);
+                         labelOfShares(movers));
   uint own = labelAt(p, around);
   uint other = own;
   float share = 0.0;

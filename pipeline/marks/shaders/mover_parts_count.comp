@@ -1,0 +1,39 @@
+// Purpose: counts the cells of each mover in blocks.
+// Inputs:  labels: this frame's; carried (mover_carry.comp).
+// Outputs: blocks (mover_parts.glsl): each its own part. One invocation per block of kLayerBlock²
+//          cells.
+// Precision: highp.
+#include "pipeline/marks/shaders/layer_blocks.glsl"
+#include "pipeline/marks/shaders/mover_parts.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std430, binding = 0) writeonly buffer Blocks { MoverBlock blocks[]; };
+uniform highp sampler2D labels;
+uniform highp sampler2D carried;
+uniform ivec2 grid;
+
+const int kStep = 2;  // cells
+
+void main() {
+  ivec2 block = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(block, grid))) return;
+  ivec2 size = textureSize(labels, 0);
+  uvec4 counts = uvec4(0u);
+  for (int y = 0; y < kLayerBlock; y += kStep) {
+    for (int x = 0; x < kLayerBlock; x += kStep) {
+      ivec2 cell = block * kLayerBlock + ivec2(x, y);
+      if (any(greaterThanEqual(cell, size)) || texelFetch(labels, cell, 0).r < 0.5) continue;
+      int number = int(255.0 * texelFetch(carried, cell, 0).r + 0.5);
+      counts += uvec4(equal(ivec4(number), ivec4(0, 1, 2, 3)));
+    }
+  }
+  int index = block.y * grid.x + block.x;
+  bool isAny = counts != uvec4(0u);
+  blocks[index].parent = isAny ? uint(index) : kNoPart;
+  if (!isAny) return;
+  for (int i = 0; i < 4; ++i) blocks[index].counts[i] = counts[i];
+  for (int i = 0; i < 6; ++i) blocks[index].motion[i] = 0;
+  blocks[index].low = uint(block.y);
+  blocks[index].high = uint(block.y);
+  blocks[index].left = uint(block.x);
+  blocks[index].right = uint(block.x);
+}
