@@ -93,6 +93,7 @@ class StrokeCarry : public support::GlTest {
         .texture("ids", ids_)
         .set("pixelsOfFull", glm::vec2(1.0F))
         .set("segment", kSegmentPx)
+        .set("arms", glm::ivec2(2, 4))
         .set("slots", static_cast<unsigned>(anchors.size()))
         .dispatch({static_cast<int>(anchors.size()), 1}, GL_BUFFER_UPDATE_BARRIER_BIT);
     return support::readBuffer<StrokeSlot>(strokes);
