@@ -39,7 +39,7 @@ struct Anchor {
   /// The object and triangle that it lies on (ArFrame::ids), a virtual or a real one; 0: a part of
   /// the image without a model. The triangle only with kOnSurface.
   std::uint32_t surface = 0;
-  /// a MotionSource, the flags below, and in the upper 16 bits for how long a mover has covered it
+  /// a MotionSource, the flags below, its mover's number less 1 (0x30), and in the upper 16 bits for how long a mover has covered it
   /// (shaders/anchor.glsl)
   std::uint32_t state = 0;
 

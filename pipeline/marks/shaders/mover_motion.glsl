@@ -15,7 +15,7 @@ bool findMoverMotion(vec2 px, int number, out vec2 displacement) {
   vec2 at = px / (kLayerCellPixels * float(kLayerBlock)) - 0.5;
   ivec2 nearest = ivec2(floor(at + 0.5));
   ivec2 size = sizeOfMotion();
-  int row = (number - 1) * size.y;
+  int row = min((number - 1) * size.y, textureSize(moverMotion, 0).y - size.y);
   vec3 sum = vec3(0.0);
   ivec2 first = max(nearest - 2, ivec2(0));
   ivec2 last = min(nearest + 2, size - 1);

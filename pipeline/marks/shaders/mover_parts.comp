@@ -1,7 +1,8 @@
 // Purpose: the parts of movers that hang together, and their movers' numbers. A part that has no
 //          number takes that of one beside it, or else the one that is least near. Of two parts that have the same
 //          number, but are clearly apart, the smaller takes another one before they meet; parts of
-//          one number that are left in another one take its number.
+//          one number that are left in another one take its number. Of more than kMostParts parts, the
+//          last ones, row by row, take the first number.
 // Inputs:  blocks (mover_parts_count.comp): how many cells of each mover; mover_motion.glsl's: the
 //          previous frame's.
 // Outputs: numbers RGBA8, of 255: R: that of cells that have none; GBA: what the numbers 1 to 3
@@ -199,7 +200,9 @@ void main() {
     // In the order of places, so that each run gives the same numbers.
     uint found = 0u;
     for (uint b = 0u; b < count && found < kMostParts; ++b) {
-      if (blocks[b].parent == b) parts[found++] = b;
+      if (blocks[b].parent != b) continue;
+      parts[found] = b;
+      ++found;
     }
     partCount = found;
   }

@@ -11,23 +11,25 @@ uniform highp sampler2D labels;
 uniform highp sampler2D carried;
 uniform ivec2 grid;
 
-const int kStep = 2;  // cells
+const int kStep = 2;  // cells: every second one is counted
 
 void main() {
   ivec2 block = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(block, grid))) return;
   ivec2 size = textureSize(labels, 0);
   uvec4 counts = uvec4(0u);
-  for (int y = 0; y < kLayerBlock; y += kStep) {
-    for (int x = 0; x < kLayerBlock; x += kStep) {
+  bool isAny = false;
+  for (int y = 0; y < kLayerBlock; ++y) {
+    for (int x = 0; x < kLayerBlock; ++x) {
       ivec2 cell = block * kLayerBlock + ivec2(x, y);
       if (any(greaterThanEqual(cell, size)) || texelFetch(labels, cell, 0).r < 0.5) continue;
+      isAny = true;
+      if (((x | y) & (kStep - 1)) != 0) continue;
       int number = int(255.0 * texelFetch(carried, cell, 0).r + 0.5);
       counts += uvec4(equal(ivec4(number), ivec4(0, 1, 2, 3)));
     }
   }
   int index = block.y * grid.x + block.x;
-  bool isAny = counts != uvec4(0u);
   blocks[index].parent = isAny ? uint(index) : kNoPart;
   if (!isAny) return;
   for (int i = 0; i < 4; ++i) blocks[index].counts[i] = counts[i];

@@ -48,8 +48,8 @@ class MotionQuestions {
         "  if (i >= count) return;\n"
         "  vec4 asked = questions[i];\n"
         "  Moved moved = imageMotionAt(asked.xy, asked.z, asked.w != 0.0);\n"
-        "  answers[i] = Answer(moved.displacement, moved.error, float(moved.source), "
-        "moved.jacobian);\n"
+        "  answers[i] = Answer(moved.displacement, moved.error, "
+        "float(moved.source & kSourceBits), turnOf(moved, asked.xy, asked.w != 0.0));\n"
         "}\n"}}};
 
   /// `library` has kShaders.

@@ -9,6 +9,7 @@
 const uint kLabels = 4096u;
 const uint kMostMoverLabels = 3u;
 const uint kMoverLabel = kLabels - 1u;  // of what moves by itself before the camera: the first mover
+const uint kAnyPatch = kLabels - 1u - kMostMoverLabels;  // of a model's surface whose patch is not known
 const float kLineStep = 3.14159265 / 4096.0;
 const uint kOnLimb = 1u << 29u;
 const uint kAtJoint = 1u << 30u;
@@ -25,10 +26,10 @@ float clarityOf(uint form) { return float(form >> 24u & 31u) / 31.0; }
 bool isDeclared(uint form) { return (form & kDeclared) != 0u; }
 
 // Up to 4,092 patches of one object have different labels; the ranges of objects whose numbers
-// differ by less than 12 begin 222 apart at least. 0 is the camera image's, also where an occluder
+// differ by less than 12 begin 212 apart at least. 0 is the camera image's, also where an occluder
 // is.
 uint labelOfPatch(uint object, uint number) {
-  return 1u + (object * 2531u + number) % (kLabels - 1u - kMostMoverLabels);
+  return 1u + (object * 2531u + number) % kAnyPatch;
 }
 // Of a mover, from 1 on.
 uint labelOfMover(int number) { return kMoverLabel + 1u - uint(number); }

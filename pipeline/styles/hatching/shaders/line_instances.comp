@@ -8,6 +8,7 @@
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/scene/render/shaders/surface_form.glsl"
 #include "pipeline/styles/hatching/shaders/line.glsl"
 #include "pipeline/styles/strokes/shaders/long_instance.glsl"
 layout(local_size_x = 64) in;
@@ -40,6 +41,8 @@ void main() {
   float rank = lines[slot].rank;
   uint label = lines[slot].label;
   bool isFront = label != 0u;
+  // Lines are clipped at the border between two movers.
+  if (label == kMoverLabel) label = labelOfMover(moverOf(anchors[slot].state));
   float fade = anchors[slot].fade;
   vec2 from = anchors[slot].px + lines[slot].shift;
   float widest = 0.0;

@@ -1,7 +1,7 @@
 // Purpose: what a line is drawn on, and must not leave: a patch of a model, a mover, or the
 //          background.
 // Inputs:  forms and ids (ArFrame) if hasObjects, their pixelsOfFull; mover_labels.glsl's.
-// Outputs: a patch's label (surface_form.glsl); 0 for the background, kMoverLabel for movers.
+// Outputs: a patch's label (surface_form.glsl); 0 for the background, kMoverLabel for all movers.
 // Precision: integers.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/mover_labels.glsl"
@@ -27,7 +27,7 @@ uint supportOf(vec2 px, uint surface, uint state, uint was) {
   uint object = objectOf(surface);
   if (!isVirtual(object)) return (state & kMover) != 0u ? kMoverLabel : 0u;
   if (was != 0u && was != kMoverLabel) return was;
-  if (!hasObjects) return kMoverLabel - 1u;
+  if (!hasObjects) return kAnyPatch;
   // The pixel that shows the anchor's triangle is its own or one beside it.
   ivec2 found = pixelAt(px);
   ivec2 last = textureSize(ids, 0) - 1;
@@ -36,5 +36,5 @@ uint supportOf(vec2 px, uint surface, uint state, uint was) {
     if (texelFetch(ids, at, 0).r == surface) found = at;
   }
   uint label = labelOf(texelFetch(forms, found, 0).r);
-  return label != 0u ? label : kMoverLabel - 1u;
+  return label != 0u ? label : kAnyPatch;
 }
