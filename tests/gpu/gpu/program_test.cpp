@@ -36,14 +36,26 @@ void main() {
   values[0] = float(anInt);
   values[1] = float(anUnsigned);
   values[2] = aFloat;
-  for (int k = 0; k < 2; ++k) values[3 + k] = float(anIvec2[k]);
-  for (int k = 0; k < 2; ++k) values[5 + k] = aVec2[k];
-  for (int k = 0; k < 3; ++k) values[7 + k] = aVec3[k];
-  for (int k = 0; k < 4; ++k) values[10 + k] = aVec4[k];
+  values[3] = float(anIvec2.x);
+  values[4] = float(anIvec2.y);
+  values[5] = aVec2.x;
+  values[6] = aVec2.y;
+  values[7] = aVec3.x;
+  values[8] = aVec3.y;
+  values[9] = aVec3.z;
+  values[10] = aVec4.x;
+  values[11] = aVec4.y;
+  values[12] = aVec4.z;
+  values[13] = aVec4.w;
   vec3 v3 = aMat3 * vec3(1.0, 2.0, 3.0);
-  for (int k = 0; k < 3; ++k) values[14 + k] = v3[k];
+  values[14] = v3.x;
+  values[15] = v3.y;
+  values[16] = v3.z;
   vec4 v4 = aMat4 * vec4(1.0, 2.0, 3.0, 4.0);
-  for (int k = 0; k < 4; ++k) values[17 + k] = v4[k];
+  values[17] = v4.x;
+  values[18] = v4.y;
+  values[19] = v4.z;
+  values[20] = v4.w;
 }
 )"},
     EmbeddedShader{"t/difference.frag", R"(

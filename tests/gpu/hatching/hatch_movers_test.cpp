@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -78,6 +79,47 @@ TEST_F(HatchMovers, HaveLinesOfTheirOwnAndLeaveTheOthersAsTheyAre) {
   const Found untold = see("false");
   EXPECT_EQ(untold.onMover, 0);
   EXPECT_GT(untold.changed, 5);
+}
+
+/// The lines of each mover are clipped where the other one begins, and not by its own border's
+/// labels.
+TEST_F(HatchMovers, TwoOfThemAreBothDrawn) {
+  constexpr std::array<glm::dvec2, 2> kDiscs{glm::dvec2{36.0, 72.0}, glm::dvec2{156.0, 72.0}};
+  constexpr double kSmall = 24.0;
+  constexpr double kBorder = 5.0;
+  Hatching style(library_);
+  set(style, {{"movers", "true"}, {"directions", "1"}});
+  restart();
+  for (int frame = 0; frame < 14; ++frame) {
+    std::mt19937 random(static_cast<unsigned>(frame));
+    std::normal_distribution<double> noise(0.0, 2.0 / 255.0);
+    const hal::Image image = imageOf(kSize, [&](int x, int y) {
+      const bool isDisc = frame >= 8 && std::ranges::any_of(kDiscs, [&](glm::dvec2 disc) {
+                            return glm::distance(glm::dvec2(x, y), disc) < kSmall;
+                          });
+      return (isDisc ? 0.25 + 0.08 * std::sin(0.6 * y) : 0.8 + 0.1 * std::sin(0.6 * x)) +
+             noise(random);
+    });
+    style.paint(next(image), {});
+  }
+  std::set<float> labels;
+  for (const DrawnLine& line : drawnLines(style.set(0))) {
+    if (line.object >= 4093.0F && line.object <= kOnMover) labels.insert(line.object);
+  }
+  EXPECT_EQ(labels.size(), 2U) << "they are to be told from one another";
+  const std::vector<std::uint8_t> ink = inkOf(style);
+  std::array<double, 2> sums{};
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      for (std::size_t i = 0; i < 2; ++i) {
+        if (glm::distance(glm::dvec2(x, y), kDiscs.at(i)) > kSmall - kBorder) continue;
+        sums.at(i) += ink[static_cast<std::size_t>(y * kSize.width + x)] / 255.0;
+      }
+    }
+  }
+  RecordProperty("ink", std::to_string(sums[0]) + " " + std::to_string(sums[1]));
+  EXPECT_GT(std::min(sums[0], sums[1]), 0.6 * std::max(sums[0], sums[1]));
+  EXPECT_GT(std::min(sums[0], sums[1]), 100.0);
 }
 
 /// Something dark that walks, and swells and shrinks with each step.

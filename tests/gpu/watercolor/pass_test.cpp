@@ -70,6 +70,8 @@ class PassTest : public StyleTest, public testing::WithParamInterface<Size> {
     for (const std::uint32_t word : words()) result.push_back(word & 0x3FFFFFU);
     return result;
   }
+  static constexpr double kFarSquared = 40.0 * 40.0;  // px²
+  static constexpr double kFarRounding = 1e-3;
   /// That each pixel has the nearest site, or one as near.
   void expectNearest(const std::vector<Site>& sites) const {
     const hal::FrameSize size = GetParam().pixels;
@@ -81,8 +83,10 @@ class PassTest : public StyleTest, public testing::WithParamInterface<Size> {
       const int y = static_cast<int>(i) / size.width;
       ASSERT_LT(found[i], sites.size());
       ASSERT_TRUE(sites[found[i]].exists) << x << "," << y;
-      ASSERT_EQ(oracles::powerDistance(sites[found[i]], x, y),
-                oracles::powerDistance(sites[wanted[i]], x, y))
+      const double least = oracles::powerDistance(sites[wanted[i]], x, y);
+      // Far seeds' distances are rounded (shaders/tile.comp).
+      const double most = least < kFarSquared ? least : least * (1.0 + kFarRounding);
+      ASSERT_LE(oracles::powerDistance(sites[found[i]], x, y), most)
           << x << "," << y << ": " << found[i] << " for " << wanted[i];
     }
   }
