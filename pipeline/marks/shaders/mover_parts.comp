@@ -26,6 +26,7 @@ const float kLeftOver = 0.15;
 const float kLeastAlike = 0.2;  // of a mover's cells, of those of another one that moves alike
 
 shared uint partCount;
+shared uint firsts[64];  // first blocks in an invocation's stretch of them
 shared uint parts[kMostParts];  // their first blocks
 shared uint majors[kMostParts];
 shared uint fills[kMostParts];
@@ -196,16 +197,23 @@ void main() {
   }
   memoryBarrierBuffer();
   barrier();
-  if (lane == 0u) {
-    // In the order of places, so that each run gives the same numbers.
-    uint found = 0u;
-    for (uint b = 0u; b < count && found < kMostParts; ++b) {
-      if (blocks[b].parent != b) continue;
-      parts[found] = b;
-      ++found;
-    }
-    partCount = found;
+  // In the order of places, so that each run gives the same numbers: each invocation counts those of
+  // its own stretch of blocks.
+  uint each = (count + lanes - 1u) / lanes;
+  uint begin = min(lane * each, count);
+  uint end = min(begin + each, count);
+  uint own = 0u;
+  for (uint b = begin; b < end; ++b) own += blocks[b].parent == b ? 1u : 0u;
+  firsts[lane] = own;
+  barrier();
+  uint found = 0u;
+  for (uint i = 0u; i < lane; ++i) found += firsts[i];
+  for (uint b = begin; b < end && found < kMostParts; ++b) {
+    if (blocks[b].parent != b) continue;
+    parts[found] = b;
+    ++found;
   }
+  if (lane == lanes - 1u) partCount = min(found, kMostParts);
   barrier();
   for (uint i = lane; i < partCount; i += lanes) {
     uint first = parts[i];
