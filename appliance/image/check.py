@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Boots a copy of a machine image in QEMU, by UEFI and GRUB and with its own command line, to which only software GL and the
 kernel's virtual camera are added, and judges the screen. In its first seconds, up to twice the moment of the firmware's first
-mode, it is the firmware's and GRUB's; from then on it may change to pictures and black, and to no text. A waiting picture comes,
-and then a painting that moves.
+mode, it is the firmware's and GRUB's, for 60 seconds where no mode was seen to come; from then on it may change to pictures and
+black, and to no text. A waiting picture comes, and then a painting that moves.
 
     check.py DISK.img OUTPUT_FOLDER [MINUTES]
 
@@ -22,6 +22,7 @@ LEAST_COLOURS = 200  # of a picture on paper; text on black has few
 OTHER_PICTURE = 0.4  # of the bytes: a painting in place of the waiting picture
 MOVED = 0.002
 FIRMWARE_SECONDS = 20  # under emulation: 7 on an idle machine, and the kernel needs longer than the rest
+LATEST_MODE = 60  # seconds; a quick machine has its mode before the first look, and then none is seen to come
 FIRMWARE_MODES = 2  # GRUB is done at 1.3 times the moment of the firmware's first mode, however slow the machine
 FIRMWARE = "/usr/share/OVMF/OVMF_CODE_4M.fd"
 WORDS = "pleinair.software_gl modules_load=vivid"
@@ -131,15 +132,18 @@ class Firmware:
 
     def __init__(self):
         self._first_size = None
-        self._end = None  # not known before the firmware has set its mode
+        self._end = None  # not known before the firmware has set its mode, or has had its time for it
 
     def is_over(self, at, screen):
         """`at`: seconds since power on. For each screen, in their order."""
         size = (screen.width, screen.height)
         if self._first_size is None:
             self._first_size = size
-        if self._end is None and size != self._first_size:
-            self._end = max(FIRMWARE_SECONDS, FIRMWARE_MODES * at)
+        if self._end is None:
+            if at > LATEST_MODE:
+                self._end = LATEST_MODE
+            elif size != self._first_size:
+                self._end = max(FIRMWARE_SECONDS, FIRMWARE_MODES * at)
         return self._end is not None and at > self._end
 
 

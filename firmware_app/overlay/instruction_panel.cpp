@@ -97,11 +97,12 @@ void drawColumn(Card& card, const Column& column, int top, const Measures& m) {
 
 /// The first picture of a step's text, small; nothing where there is none that can be read.
 std::optional<hal::Image> pictureOf(const procedure::StepText& text,
-                                    const std::filesystem::path& folder, int height) {
+                                    const std::filesystem::path& folder, int rows,
+                                    int mostColumns) {
   if (text.pictures.empty()) return std::nullopt;
   const auto read = hal::readPictureRgb(folder / text.pictures.front().file);
   if (!read) return std::nullopt;
-  return scaledRgb(read->view(), sizeOfRows(read->size(), height));
+  return scaledRgb(read->view(), sizeOfRows(read->size(), rows, mostColumns));
 }
 
 Column mainColumn(const StepShown& shown, int x, int width, const Measures& m) {
@@ -194,17 +195,20 @@ Panel panelOf(const StepShown& shown, const std::filesystem::path& folder, hal::
   const int sideWidth = 31 * output.width / 100;
   const int left = margin + numberWidth + (isEnd ? 0 : m.px(8));
   const int pictureRows = std::min(m.px(84), mostHeight(output) - barsHeight - 2 * margin);
+  const int sideX = output.width - sideWidth - margin;
+  // Text has at least half of what is beside tools and torque.
+  const int pictureColumns = std::max(1, (sideX - left - margin) / 2 - margin);
   std::optional<hal::Image> picture;
   hal::FrameSize pictureSize;
   const bool hasMovie = !isEnd && procedure.steps[shown.step].movie && pictureRows > 0;
   if (hasMovie) {
-    pictureSize = sizeOfRows(procedure.steps[shown.step].movie->size, pictureRows);
+    pictureSize = sizeOfRows(procedure.steps[shown.step].movie->size, pictureRows, pictureColumns);
   } else if (!isEnd && pictureRows > 0) {
-    picture = pictureOf(procedure.text(shown.step, shown.language), folder, pictureRows);
+    picture =
+        pictureOf(procedure.text(shown.step, shown.language), folder, pictureRows, pictureColumns);
     if (picture) pictureSize = picture->size();
   }
   const int pictureWidth = pictureSize.width == 0 ? 0 : pictureSize.width + margin;
-  const int sideX = output.width - sideWidth - margin;
   const Column text = mainColumn(shown, left, std::max(1, sideX - pictureWidth - left - margin), m);
   const Column side = sideColumn(shown, sideX, sideWidth, m);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "firmware_app/overlay/doubt_words.h"
 #include "firmware_app/overlay/instruction_panel.h"
@@ -13,6 +14,7 @@
 #include "firmware_app/overlay/step_movie.h"
 #include "firmware_app/procedure/step_arrows.h"
 #include "pipeline/overlay/part_shape.h"
+#include "pipeline/procedure/notices.h"
 #include "pipeline/procedure/words.h"
 
 namespace pleinair::app {
@@ -142,7 +144,11 @@ std::shared_ptr<const overlay::PanelMovie> stepMovie(const StepShown& shown,
                                                      const overlay::MoviePlace& place,
                                                      const std::stop_token& stop) {
   if (place.size.width == 0) return nullptr;
-  return readStepMovie(folder / shown.procedure->steps[shown.step].movie->file, place.size, stop);
+  auto movie =
+      readStepMovie(folder / shown.procedure->steps[shown.step].movie->file, place.size, stop);
+  if (movie) return *std::move(movie);
+  spdlog::warn("step {}: {}", shown.procedure->steps[shown.step].id, movie.error().message());
+  return textMovie(std::string(procedure::noticesIn(shown.language).movieUnreadable), place.size);
 }
 
 hal::Image blankInset(int outputWidth) {

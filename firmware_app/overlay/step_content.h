@@ -35,8 +35,9 @@ overlay::OverlayContent stepContent(const StepShown& shown, const scene::Model& 
 /// The step drawn from the model, without a camera, for pictures that are so wide: RGBA8. It takes
 /// some 0.1 s, many times what all else of the content does. Any thread.
 hal::Image stepInset(const StepShown& shown, const scene::Model& machine, int outputWidth);
-/// The step's movie for its place in a content of the step; null where it has none, or none that
-/// can be read, or where `stop` was requested. It may take longer than the inset. Any thread.
+/// The step's movie for its place in a content of the step; where it cannot be read a text that
+/// says so, and a warning in the log. Null where the step has none, or where `stop` was requested.
+/// It may take longer than the inset. Any thread.
 std::shared_ptr<const overlay::PanelMovie> stepMovie(const StepShown& shown,
                                                      const std::filesystem::path& folder,
                                                      const overlay::MoviePlace& place,

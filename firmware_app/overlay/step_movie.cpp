@@ -4,10 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "firmware_app/overlay/card.h"
 #include "hal/cameras/recording/movie_frames.h"
 
 namespace pleinair::app {
@@ -46,10 +48,14 @@ void drawPlaySign(hal::Image& rgb) {
 
 }  // namespace
 
-hal::FrameSize sizeOfRows(hal::FrameSize picture, int rows) {
-  return {std::max(1, static_cast<int>(std::int64_t{picture.width} * rows /
-                                       std::max(1, picture.height))),
-          std::max(1, rows)};
+hal::FrameSize sizeOfRows(hal::FrameSize picture, int rows, int mostColumns) {
+  const std::int64_t width = std::max(1, picture.width);
+  const std::int64_t height = std::max(1, picture.height);
+  const std::int64_t columns = width * rows / height;
+  if (columns > mostColumns) {
+    return {std::max(1, mostColumns), std::max(1, static_cast<int>(height * mostColumns / width))};
+  }
+  return {std::max(1, static_cast<int>(columns)), std::max(1, rows)};
 }
 
 hal::Image scaledRgb(const hal::ImageView& rgb, hal::FrameSize size) {
@@ -62,29 +68,49 @@ hal::Image scaledRgb(const hal::ImageView& rgb, hal::FrameSize size) {
   return scaled;
 }
 
-std::shared_ptr<const overlay::PanelMovie> readStepMovie(const std::filesystem::path& file,
-                                                         hal::FrameSize place,
-                                                         const std::stop_token& stop) {
+hal::Result<std::shared_ptr<const overlay::PanelMovie>> readStepMovie(
+    const std::filesystem::path& file, hal::FrameSize place, const std::stop_token& stop) {
   const hal::FrameSize size = frameSize(place);
   auto movie = std::make_shared<overlay::PanelMovie>();
   hal::Duration due{0};
   hal::Duration last{0};
   int count = 0;
-  const auto read =
-      hal::forMovieFrames(file, {}, [&](const hal::ImageView& rgb, hal::Duration time) {
-        // A longer one is another file than was checked.
-        if (stop.stop_requested() || time >= procedure::kMostMovie) return false;
-        last = time;
-        ++count;
-        if (time < due) return true;
-        movie->frames.push_back({.begins = time, .image = scaledRgb(rgb, size)});
-        // The frame nearest to each multiple of the period, of movies of any rate.
-        due = std::max(due, time - kPeriod / 2) + kPeriod;
-        return true;
-      });
-  if (!read || movie->frames.empty() || stop.stop_requested()) return nullptr;
+  const auto take = [&](const hal::ImageView& rgb, hal::Duration time) {
+    // A longer one is another file than was checked.
+    if (time >= procedure::kMostMovie) return false;
+    last = time;
+    ++count;
+    if (time < due) return true;
+    movie->frames.push_back({.begins = time, .image = scaledRgb(rgb, size)});
+    // The frame nearest to each multiple of the period, of movies of any rate.
+    due = std::max(due, time - kPeriod / 2) + kPeriod;
+    return true;
+  };
+  const auto read = hal::forMovieFrames(file, {}, take, [&] { return stop.stop_requested(); });
+  if (stop.stop_requested()) return nullptr;
+  if (!read) return tl::unexpected(read.error());
   // The last frame lasts as long as the others.
   movie->length = last + (count > 1 ? std::max<hal::Duration>(last / (count - 1), 1ms) : kPeriod);
+  return movie;
+}
+
+std::shared_ptr<const overlay::PanelMovie> textMovie(const std::string& text,
+                                                     hal::FrameSize place) {
+  hal::Image image({.pixelFormat = hal::PixelFormat::kRgb8, .size = place});
+  const int fontPixels = std::clamp(place.height / 6, 8, 40);
+  const hal::Image ink = inkOfText(text, fontPixels, place.width);
+  const int left = std::max(0, (place.width - ink.size().width) / 2);
+  const int top = std::max(0, (place.height - ink.size().height) / 2);
+  for (int y = 0; y < std::min(ink.size().height, place.height - top); ++y) {
+    const auto from = ink.view().row(0, y);
+    auto to = image.row(0, top + y).subspan(3 * static_cast<std::size_t>(left));
+    for (int x = 0; x < std::min(ink.size().width, place.width - left); ++x) {
+      std::fill_n(to.begin() + 3 * x, 3, from[static_cast<std::size_t>(x)]);
+    }
+  }
+  auto movie = std::make_shared<overlay::PanelMovie>();
+  movie->frames.push_back({.begins = 0ms, .image = std::move(image)});
+  movie->length = 1s;
   return movie;
 }
 

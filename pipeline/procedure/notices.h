@@ -23,6 +23,7 @@ struct Notices {
   std::string_view awaitsPicture, noPicture, pictureDecides, notLocated, uncertain, mayJudge;
   // Why a comparison is uncertain.
   std::string_view otherSide, notWholly, comeCloser, nothingToCompare, tooDark, almostAlike;
+  std::string_view movieUnreadable;  ///< in its place
   // Of inputs, and their names.
   std::string_view twoInputs, inputReady, inputGone, theKeys, aCard, theServer;
   // What the keys do, for the help.

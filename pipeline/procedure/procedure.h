@@ -96,6 +96,10 @@ struct StepMovie {
 };
 /// The longest movie that is taken: all of it is in memory while its step is shown.
 inline constexpr std::chrono::seconds kMostMovie{15};
+/// The largest movie file.
+inline constexpr std::uintmax_t kMostMovieFileBytes = std::uintmax_t{64} << 20U;
+/// The longer side of a movie or picture, in shorter ones: it stands beside text.
+inline constexpr int kMostSlender = 4;
 
 /// A step in one language.
 struct StepText {

@@ -49,6 +49,9 @@ class ProcedureFolder : public ProcedureSources {
   explicit ProcedureFolder(fs::path folder) : folder_(std::move(folder)) {}
 
   hal::Result<std::string> text(const std::string& name) override {
+    if (auto reached = staysInside(name, "a file in the folder"); !reached) {
+      return tl::unexpected(std::move(reached.error()));
+    }
     std::error_code failure;
     const fs::file_status status = fs::status(folder_ / name, failure);
     if (failure) return tl::unexpected(faultOf("cannot open: " + failure.message(), ""));
@@ -65,11 +68,20 @@ class ProcedureFolder : public ProcedureSources {
     if (auto found = find(name, "picture"); !found) return found;
     const auto decoded = hal::readPicture(folder_ / name);
     if (!decoded) return tl::unexpected(faultOf(decoded.error().message(), "a picture"));
-    return {};
+    return checkShape(name, decoded->size());
   }
 
   hal::Result<hal::FrameSize> movie(const std::string& name) override {
     if (auto found = find(name, "movie"); !found) return tl::unexpected(std::move(found.error()));
+    std::error_code ignored;  // what cannot be read is told below
+    const std::uintmax_t bytes = fs::file_size(folder_ / name, ignored);
+    if (!ignored && bytes > kMostMovieFileBytes) {
+      return tl::unexpected(
+          faultOf(fmt::format("\"{}\" has {} MB", name, (bytes >> 20U) + 1),
+                  fmt::format("at most {} MB: `pleinair render --style none --size 640x360` "
+                              "makes it smaller",
+                              kMostMovieFileBytes >> 20U)));
+    }
     hal::FrameSize size;
     int frames = 0;
     const auto begun =
@@ -82,6 +94,7 @@ class ProcedureFolder : public ProcedureSources {
       return tl::unexpected(faultOf(fmt::format("\"{}\" has a single frame", name),
                                     "a movie; a picture belongs into the texts: ![caption](file)"));
     }
+    if (auto fits = checkShape(name, size); !fits) return tl::unexpected(std::move(fits.error()));
     // Only what is beyond is decoded: most movies have nothing there.
     bool isTooLong = false;
     (void)hal::forMovieFrames(folder_ / name, kMostMovie,
@@ -140,6 +153,31 @@ class ProcedureFolder : public ProcedureSources {
   fs::path folder() const override { return folder_; }
 
  private:
+  static hal::Result<void> checkShape(const std::string& name, hal::FrameSize size) {
+    const auto [shorter, longer] = std::minmax({size.width, size.height});
+    if (longer <= kMostSlender * shorter) return {};
+    return tl::unexpected(
+        faultOf(fmt::format("\"{}\" has {} × {} px", name, size.width, size.height),
+                fmt::format("sides of at most {0}:1, so that text has room beside it: cut it",
+                            kMostSlender)));
+  }
+
+  /// Whether symbolic links lead to nothing outside of the folder.
+  hal::Result<void> staysInside(const std::string& name, std::string remedy) const {
+    std::error_code failure;
+    const fs::path root = fs::canonical(folder_, failure);
+    if (failure) return {};  // whoever reads the file tells it
+    const fs::path reached = fs::weakly_canonical(folder_ / name, failure);
+    if (failure) {
+      return tl::unexpected(faultOf(fmt::format("cannot open: {}", failure.message()), remedy));
+    }
+    if (isInside(reached.lexically_relative(root))) return {};
+    return tl::unexpected(faultOf(
+        fmt::format("\"{}\" is not in the procedure's folder: a symbolic link leads out of it",
+                    name),
+        std::move(remedy)));
+  }
+
   /// `kind`: "picture" or "movie".
   hal::Result<void> find(const std::string& name, std::string_view kind) const {
     std::string remedy = fmt::format("a {} in the folder", kind);
@@ -147,6 +185,7 @@ class ProcedureFolder : public ProcedureSources {
       return tl::unexpected(
           faultOf(fmt::format("\"{}\" is not in the procedure's folder", name), std::move(remedy)));
     }
+    if (auto stays = staysInside(name, remedy); !stays) return stays;
     std::error_code ignored;
     if (!fs::exists(folder_ / name, ignored)) {
       const std::vector<std::string> names = namesIn(folder_);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,9 +43,18 @@ class FrameSource {
   virtual SourceItem next() = 0;
 };
 
+/// Ends a movie that next() would search for a valid frame to the end of the file.
+struct MovieBounds {
+  /// Packets without a valid frame, after which the movie ends as truncated.
+  std::optional<int> mostWithoutFrame;
+  /// Asked before each packet; true ends the movie. Null: never.
+  std::function<bool()> isUnwanted = nullptr;
+};
+
 /// Errors: as Camera::start. Of the options, `from` and `to` count here.
 Result<std::unique_ptr<FrameSource>> openMovie(const std::filesystem::path& path,
-                                               const RecordingOptions& options);
+                                               const RecordingOptions& options,
+                                               MovieBounds bounds = {});
 
 /// Pictures in the given order, `period` apart (a single picture has none). Broken ones are
 /// skipped, and options.onSkipped is told.

@@ -13,12 +13,15 @@ namespace pleinair::hal {
 namespace {
 
 constexpr Duration kUsualPeriod = std::chrono::milliseconds(40);  // of a movie that says none
+/// Ten seconds of a usual movie, and many times what any decoder keeps back.
+constexpr int kMostWithoutFrame = 250;
 
 }  // namespace
 
 Result<void> forMovieFrames(const std::filesystem::path& movie, Duration from,
-                            const TakeMovieFrame& take) {
-  auto source = recording::openMovie(movie, {.from = from});
+                            const TakeMovieFrame& take, const std::function<bool()>& isUnwanted) {
+  auto source = recording::openMovie(
+      movie, {.from = from}, {.mostWithoutFrame = kMostWithoutFrame, .isUnwanted = isUnwanted});
   if (!source) return tl::unexpected(source.error());
   recording::Timeline timeline((*source)->framePeriod().value_or(kUsualPeriod));
   bool isAnyTaken = false;
@@ -29,7 +32,7 @@ Result<void> forMovieFrames(const std::filesystem::path& movie, Duration from,
       return tl::unexpected(std::move(*error));
     }
     if (std::holds_alternative<recording::SourceEnd>(item)) {
-      if (isAnyTaken) return {};
+      if (isAnyTaken || (isUnwanted && isUnwanted())) return {};
       return tl::unexpected(Error{.kind = ErrorKind::kInvalidInput,
                                   .subject = movie.string(),
                                   .problem = "has no valid frame",
@@ -38,6 +41,7 @@ Result<void> forMovieFrames(const std::filesystem::path& movie, Duration from,
     const auto& frame = std::get<recording::SourceFrame>(item);
     auto picture = libav::lendPicture(frame.frame, libav::Delivery::kRgb);
     if (!picture) {
+      if (isAnyTaken) return {};
       picture.error().subject = movie.string();
       return tl::unexpected(std::move(picture.error()));
     }

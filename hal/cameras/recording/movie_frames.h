@@ -14,10 +14,12 @@ namespace pleinair::hal {
 using TakeMovieFrame = std::function<bool(const ImageView& rgb, Duration time)>;
 
 /// Decodes a movie file, without its sound, and calls `take` with each valid frame at or after
-/// `from` of the movie's time. A movie that is truncated or broken in its middle ends there. One
-/// thread. Errors: kNotFound, kPermissionDenied, kIo, kUnsupported (coding or size), kInvalidInput
-/// (no movie, or no valid frame from there on).
+/// `from` of the movie's time. A movie that is truncated ends there, and one whose frames are
+/// broken after 250 of them in a row. `isUnwanted` is asked before each packet, also of broken
+/// ones: true ends it. One thread. Errors: kNotFound, kPermissionDenied, kIo, kUnsupported (coding
+/// or size), kInvalidInput (no movie, or no valid frame from there on).
 Result<void> forMovieFrames(const std::filesystem::path& movie, Duration from,
-                            const TakeMovieFrame& take);
+                            const TakeMovieFrame& take,
+                            const std::function<bool()>& isUnwanted = nullptr);
 
 }  // namespace pleinair::hal

@@ -150,8 +150,11 @@ AVStream* findFacts(const AVFormatContext& context, const AVStream& video) {
 class MovieSource final : public FrameSource {
  public:
   MovieSource(std::string subject, DemuxedFile file, libav::CodecContext decoder,
-              const RecordingOptions& options)
-      : subject_(std::move(subject)), file_(std::move(file)), decoder_(std::move(decoder)) {
+              const RecordingOptions& options, MovieBounds bounds)
+      : subject_(std::move(subject)),
+        file_(std::move(file)),
+        decoder_(std::move(decoder)),
+        bounds_(std::move(bounds)) {
     if (isMp4()) {
       boxes_ = scanMp4(file_.io.file(), static_cast<std::uint32_t>(file_.stream->id));
     }
@@ -211,6 +214,8 @@ class MovieSource final : public FrameSource {
   std::string subject_;
   DemuxedFile file_;
   libav::CodecContext decoder_;
+  MovieBounds bounds_;
+  int packetsWithoutFrame_ = 0;
   libav::Packet packet_ = libav::makePacket();
   Mp4Boxes boxes_;
   // The part to be played, in the stream's time base.
@@ -272,6 +277,7 @@ void MovieSource::tagWithOrientation(AVFrame& frame) const {
 
 SourceFrame MovieSource::deliver(libav::Frame frame) {
   waitingForKey_ = false;
+  packetsWithoutFrame_ = 0;
   SourceFrame item{
       .frame = nullptr, .time = std::nullopt, .droppedBefore = std::exchange(dropped_, 0)};
   if (frame->best_effort_timestamp != AV_NOPTS_VALUE) {
@@ -297,6 +303,8 @@ SourceItem MovieSource::next() {
     const int status = avcodec_receive_frame(decoder_.get(), frame.get());
     if (status == AVERROR_EOF) break;
     if (status == AVERROR(EAGAIN)) {
+      if (bounds_.isUnwanted && bounds_.isUnwanted()) return SourceEnd{};
+      if (bounds_.mostWithoutFrame && packetsWithoutFrame_ > *bounds_.mostWithoutFrame) break;
       feed();
     } else if (status < 0 || !isSound(*frame)) {
       leaveOut();
@@ -304,6 +312,7 @@ SourceItem MovieSource::next() {
       return libav::tooLarge(subject_, size);
     } else if (isBefore(*frame, from_)) {
       dropped_ = 0;
+      packetsWithoutFrame_ = 0;
       waitingForKey_ = false;
     } else if (to_ && frame->best_effort_timestamp != AV_NOPTS_VALUE && !isBefore(*frame, to_)) {
       return SourceEnd{};
@@ -331,6 +340,7 @@ void MovieSource::feed() {
   if (isCapture() && packet_->stream_index == file_.facts->index) noteFacts(*packet_);
   if (packet_->stream_index == file_.stream->index) {
     ++packetsRead_;
+    ++packetsWithoutFrame_;
     lastPacketEnd_ = packet_->pos + packet_->size;
     const bool cut = (packet_->flags & AV_PKT_FLAG_CORRUPT) != 0;
     if (cut || avcodec_send_packet(decoder_.get(), packet_.get()) < 0) leaveOut();
@@ -372,7 +382,8 @@ std::optional<Error> MovieSource::whyTruncated(const libav::LogCapture& log) con
 }  // namespace
 
 Result<std::unique_ptr<FrameSource>> openMovie(const std::filesystem::path& path,
-                                               const RecordingOptions& options) {
+                                               const RecordingOptions& options,
+                                               MovieBounds bounds) {
   libav::redirectLog();
   const bool isStandardInput = path == kStandardInput;
   const std::string subject = isStandardInput ? "standard input" : path.string();
@@ -401,7 +412,8 @@ Result<std::unique_ptr<FrameSource>> openMovie(const std::filesystem::path& path
   }
   Result<libav::CodecContext> decoder = openDecoder(*file.stream, subject);
   if (!decoder) return tl::unexpected(decoder.error());
-  return std::make_unique<MovieSource>(subject, std::move(file), *std::move(decoder), options);
+  return std::make_unique<MovieSource>(subject, std::move(file), *std::move(decoder), options,
+                                       std::move(bounds));
 }
 
 }  // namespace pleinair::hal::recording

@@ -45,6 +45,14 @@ class Screens(unittest.TestCase):
         self.assertEqual(self.phases(17.2, [0, 17.2, 21.2, 34, 35]), [False, False, False, False, True])
         self.assertEqual(self.phases(40, [0, 30, 40, 79, 81]), [False, False, False, False, True])
 
+    def test_a_mode_that_is_never_seen_to_come_excuses_no_text_for_ever(self):
+        self.assertEqual(self.phases(1e9, [0, 30, 59, 61, 400]), [False, False, False, True, True])
+
+    def test_a_mode_that_comes_later_than_a_minute_excuses_nothing_more(self):
+        self.assertEqual(self.phases(90, [0, 59, 61, 90, 100, 179]), [False, False, True, True, True, True])
+        # Nothing differed between a second and a minute and a half.
+        self.assertEqual(self.phases(90, [0, 1, 90, 91]), [False, False, True, True])
+
 
 if __name__ == "__main__":
     unittest.main()

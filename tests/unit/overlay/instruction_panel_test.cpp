@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "hal/media/picture_file.h"
 #include "pipeline/procedure/procedure.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pleinair::app {
 namespace {
@@ -93,6 +95,35 @@ TEST_F(InstructionPanelTest, AMoviesPlaceIsInsideBesideTheText) {
   }
   procedure->steps[0].movie.reset();
   EXPECT_FALSE(instructionPanel({.procedure = procedure, .language = "de"}, {}, {640, 480}).movie);
+}
+
+TEST_F(InstructionPanelTest, APictureOrMovieOfAnyShapeLeavesRoomForText) {
+  const support::TemporaryFolder folder;
+  ASSERT_TRUE(hal::writePng(
+      folder.path() / "wide.png",
+      hal::Image({.pixelFormat = hal::PixelFormat::kGrey8, .size = {8192, 16}}).view()));
+  auto procedure = std::make_shared<procedure::Procedure>();
+  procedure->languages = {"de"};
+  procedure->steps.resize(1);
+  procedure->steps[0].text["de"] = {.title = "Lösen", .body = "Langsam drehen."};
+  const auto panelIn = [&](hal::FrameSize output) {
+    return instructionPanel({.procedure = procedure, .language = "de"}, folder.path(), output);
+  };
+  for (const hal::FrameSize output : {hal::FrameSize{640, 480}, {1280, 720}, {320, 240}}) {
+    for (const hal::FrameSize size : {hal::FrameSize{8192, 16}, {16, 8192}, {1920, 1080}}) {
+      procedure->steps[0].movie = procedure::StepMovie{.file = "m.mp4", .size = size};
+      const InstructionPanel panel = panelIn(output);
+      ASSERT_TRUE(panel.movie);
+      EXPECT_GT(panel.movie->topLeft.x, output.width * 35 / 100) << "text has half of the room";
+      EXPECT_GE(panel.movie->size.height, 1);
+      EXPECT_LE(panel.movie->topLeft.x + panel.movie->size.width, output.width * 69 / 100);
+    }
+    procedure->steps[0].movie.reset();
+    const int plain = panelIn(output).image.size().height;
+    procedure->steps[0].text["de"].pictures = {{.file = "wide.png", .caption = ""}};
+    EXPECT_LE(panelIn(output).image.size().height, 2 * plain) << "no line a letter wide";
+    procedure->steps[0].text["de"].pictures.clear();
+  }
 }
 
 }  // namespace

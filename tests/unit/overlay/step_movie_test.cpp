@@ -1,9 +1,12 @@
 #include "firmware_app/overlay/step_movie.h"
 
 #include <chrono>
+#include <cstdint>
+#include <memory>
 
 #include <gtest/gtest.h>
 
+#include "firmware_app/overlay/step_content.h"
 #include "pipeline/overlay/movie_player.h"
 #include "tests/support/av_movie.h"
 #include "tests/support/temporary_folder.h"
@@ -27,12 +30,18 @@ class StepMovieTest : public testing::Test {
     return path;
   }
 
+  /// Null where it cannot be read.
+  static std::shared_ptr<const overlay::PanelMovie> read(const std::filesystem::path& file,
+                                                         hal::FrameSize place) {
+    return readStepMovie(file, place).value_or(nullptr);
+  }
+
   support::TemporaryFolder folder_;
 };
 
 TEST_F(StepMovieTest, HasTheSizeOfItsPlaceAndAtMostTwelveFramesASecond) {
   const auto movie =
-      readStepMovie(write({.size = {160, 90}, .frames = 50, .framesPerSecond = 25}), {80, 45});
+      read(write({.size = {160, 90}, .frames = 50, .framesPerSecond = 25}), {80, 45});
   ASSERT_NE(movie, nullptr);
   EXPECT_EQ(movie->frames.front().image.size(), (hal::FrameSize{80, 45}));
   EXPECT_EQ(movie->frames.front().begins, 0ms);
@@ -41,7 +50,7 @@ TEST_F(StepMovieTest, HasTheSizeOfItsPlaceAndAtMostTwelveFramesASecond) {
 }
 
 TEST_F(StepMovieTest, KeepsAllFramesOfASlowOne) {
-  const auto movie = readStepMovie(write({.frames = 6, .framesPerSecond = 5}), {64, 48});
+  const auto movie = read(write({.frames = 6, .framesPerSecond = 5}), {64, 48});
   ASSERT_NE(movie, nullptr);
   EXPECT_EQ(movie->frames.size(), 6U);
   EXPECT_EQ(movie->length, 1200ms);
@@ -49,7 +58,7 @@ TEST_F(StepMovieTest, KeepsAllFramesOfASlowOne) {
 
 TEST_F(StepMovieTest, TakesBoundedMemoryHoweverLargeItsPlaceIs) {
   const auto file = write({.size = {64, 36}, .frames = 15 * 25 + 100, .framesPerSecond = 25});
-  const auto movie = readStepMovie(file, {1792, 1008});
+  const auto movie = read(file, {1792, 1008});
   ASSERT_NE(movie, nullptr);
   EXPECT_LE(movie->length, 15s) << "more is not taken";
   EXPECT_LE(bytesOf(*movie), kMostMovieBytes);
@@ -59,10 +68,49 @@ TEST_F(StepMovieTest, TakesBoundedMemoryHoweverLargeItsPlaceIs) {
 }
 
 TEST_F(StepMovieTest, IsNoneWhereTheFileIsGoneOrItIsNotWantedAnyMore) {
-  EXPECT_EQ(readStepMovie(folder_.path() / "none.mkv", {64, 48}), nullptr);
+  const auto gone = readStepMovie(folder_.path() / "none.mkv", {64, 48});
+  ASSERT_FALSE(gone);
+  EXPECT_EQ(gone.error().kind, hal::ErrorKind::kNotFound);
   std::stop_source source;
   source.request_stop();
-  EXPECT_EQ(readStepMovie(write({}), {64, 48}, source.get_token()), nullptr);
+  const auto unwanted = readStepMovie(write({}), {64, 48}, source.get_token());
+  ASSERT_TRUE(unwanted);
+  EXPECT_EQ(*unwanted, nullptr);
+}
+
+TEST_F(StepMovieTest, InPlaceOfAnUnreadableOneATextSaysSo) {
+  procedure::Procedure procedure;
+  procedure.languages = {"de"};
+  procedure.steps.resize(1);
+  procedure.steps[0].id = "turn";
+  procedure.steps[0].movie = procedure::StepMovie{.file = "gone.mkv", .size = {160, 90}};
+  const StepShown shown{.procedure = std::make_shared<const procedure::Procedure>(procedure),
+                        .language = "de"};
+  for (const hal::FrameSize place : {hal::FrameSize{160, 90}, {40, 22}, {1, 1}}) {
+    const auto movie = stepMovie(shown, folder_.path(), {.topLeft = {}, .size = place});
+    ASSERT_NE(movie, nullptr);
+    ASSERT_EQ(movie->frames.size(), 1U);
+    const hal::Image& image = movie->frames.front().image;
+    ASSERT_EQ(image.size(), place);
+    if (place.width < 160) continue;  // little is legible there
+    int bright = 0;
+    for (int y = 0; y < place.height; ++y) {
+      for (const std::uint8_t each : image.view().row(0, y)) bright += each > 150 ? 1 : 0;
+    }
+    EXPECT_GT(bright, 100) << "letters";
+  }
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_EQ(
+      stepMovie(shown, folder_.path(), {.topLeft = {}, .size = {160, 90}}, source.get_token()),
+      nullptr);
+}
+
+TEST_F(StepMovieTest, ASizeOfRowsIsBounded) {
+  EXPECT_EQ(sizeOfRows({160, 90}, 45), (hal::FrameSize{80, 45}));
+  EXPECT_EQ(sizeOfRows({160, 90}, 45, 40), (hal::FrameSize{40, 22}));
+  EXPECT_EQ(sizeOfRows({8192, 1}, 4000), (hal::FrameSize{hal::kMaxSidePixels, 1}));
+  EXPECT_EQ(sizeOfRows({1, 8192}, 96), (hal::FrameSize{1, 96}));
 }
 
 TEST_F(StepMovieTest, ThePosterIsItsFirstFrameWithASign) {

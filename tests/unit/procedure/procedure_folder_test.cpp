@@ -1,10 +1,12 @@
 #include <array>
 #include <cstring>
 #include <fstream>
+#include <string>
 #include <utility>
 
 #include <gmock/gmock.h>
 
+#include "hal/media/picture_file.h"
 #include "tests/support/av_movie.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/procedure/procedure_texts.h"
@@ -140,6 +142,68 @@ TEST_F(ProcedureFolderTest, AMovieIsCheckedAndInTheHash) {
   EXPECT_THAT(messagesWith("one.mkv"), HasSubstr("\"one.mkv\" has a single frame"));
   std::filesystem::create_directory(path("folder"));
   EXPECT_THAT(messagesWith("folder"), HasSubstr("step[0].movie: "));
+}
+
+TEST_F(ProcedureFolderTest, MoviesAndPicturesHaveBounds) {
+  writeSound();
+  const auto messagesWith = [&](const std::string& movie) {
+    write(path("procedure.toml"), kHead + "[[step]]\nid = \"a\"\nmovie = \"" + movie + "\"\n");
+    return messagesOf(readProcedureFolder(folder_.path()));
+  };
+  support::writeAvMovie(path("m.mkv"), {.size = {256, 64}, .frames = 3});
+  EXPECT_EQ(messagesWith("m.mkv"), "");
+  for (const hal::FrameSize size : {hal::FrameSize{320, 64}, {64, 320}, {8192, 16}}) {
+    support::writeAvMovie(path("m.mkv"), {.size = size, .frames = 3});
+    EXPECT_THAT(messagesWith("m.mkv"),
+                testing::AllOf(HasSubstr("\"m.mkv\" has " + std::to_string(size.width) + " × "),
+                               HasSubstr("at most 4:1")));
+  }
+  support::writeAvMovie(path("m.mkv"), {.frames = 3});
+  std::filesystem::resize_file(path("m.mkv"), kMostMovieFileBytes + 1);  // a hole in the file
+  EXPECT_THAT(messagesWith("m.mkv"),
+              testing::AllOf(HasSubstr("\"m.mkv\" has 65 MB"), HasSubstr("at most 64 MB")));
+
+  writeSound();
+  write(path("en.md"), "# T\n## a: A\n![x](wide.png)\n");
+  ASSERT_TRUE(hal::writePng(
+      path("wide.png"),
+      hal::Image({.pixelFormat = hal::PixelFormat::kGrey8, .size = {8192, 16}}).view()));
+  EXPECT_THAT(messagesOf(readProcedureFolder(folder_.path())),
+              HasSubstr("en.md:3: \"wide.png\" has 8192 × 16 px"));
+}
+
+TEST_F(ProcedureFolderTest, ALinkOutOfTheFolderIsRefused) {
+  const support::TemporaryFolder elsewhere;
+  support::writeAvMovie(elsewhere.path() / "m.mkv", {.frames = 3});
+  std::filesystem::create_symlink(elsewhere.path() / "m.mkv", path("file.mkv"));
+  std::filesystem::create_symlink(elsewhere.path(), path("folder"));
+  std::filesystem::create_symlink("loop.mkv", path("loop.mkv"));
+  support::writeAvMovie(path("own.mkv"), {.frames = 3});
+  std::filesystem::create_symlink("own.mkv", path("other.mkv"));
+  writeSound();
+  const auto messagesWith = [&](const std::string& movie) {
+    write(path("procedure.toml"), kHead + "[[step]]\nid = \"a\"\nmovie = \"" + movie + "\"\n");
+    return messagesOf(readProcedureFolder(folder_.path()));
+  };
+  EXPECT_THAT(messagesWith("file.mkv"), HasSubstr("a symbolic link leads out of it"));
+  EXPECT_THAT(messagesWith("folder/m.mkv"), HasSubstr("a symbolic link leads out of it"));
+  EXPECT_THAT(messagesWith("loop.mkv"), HasSubstr("Too many levels of symbolic links"));
+  EXPECT_EQ(messagesWith("other.mkv"), "") << "a link within it";
+
+  writeSound();
+  std::filesystem::rename(path("en.md"), elsewhere.path() / "en.md");
+  std::filesystem::create_symlink(elsewhere.path() / "en.md", path("en.md"));
+  EXPECT_THAT(messagesOf(readProcedureFolder(folder_.path())),
+              HasSubstr("a symbolic link leads out of it"));
+}
+
+TEST_F(ProcedureFolderTest, AFolderMayBeReachedByALink) {
+  writeSound();
+  support::writeAvMovie(path("m.mkv"), {.frames = 3});
+  write(path("procedure.toml"), kHead + "[[step]]\nid = \"a\"\nmovie = \"m.mkv\"\n");
+  const support::TemporaryFolder elsewhere;
+  std::filesystem::create_symlink(folder_.path(), elsewhere.path() / "procedure");
+  EXPECT_EQ(messagesOf(readProcedureFolder(elsewhere.path() / "procedure")), "");
 }
 
 TEST_F(ProcedureFolderTest, AModelOutsideOfTheFolderIsRefused) {

@@ -1,7 +1,10 @@
 #include "hal/cameras/recording/movie_frames.h"
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <iterator>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -17,6 +20,30 @@ using namespace std::chrono_literals;
 class MovieFrames : public testing::Test {
  protected:
   std::filesystem::path path(const char* name) const { return folder_.path() / name; }
+
+  /// Two frames, `broken` that no decoder takes, and ten more.
+  std::filesystem::path movieBrokenWithin(int broken) const {
+    // The index of a .mov is behind its frames, and stays.
+    const std::filesystem::path movie = path("broken.mov");
+    support::writeAvMovie(
+        movie, {.coding = AV_CODEC_ID_MJPEG, .layout = AV_PIX_FMT_YUVJ420P, .frames = broken + 12});
+    std::string bytes;
+    {
+      std::ifstream file(movie, std::ios::binary);
+      bytes.assign(std::istreambuf_iterator<char>(file), {});
+    }
+    std::vector<std::size_t> begins;  // of each picture
+    for (std::size_t at = bytes.find("\xff\xd8\xff"); at != std::string::npos;
+         at = bytes.find("\xff\xd8\xff", at + 1)) {
+      begins.push_back(at);
+    }
+    EXPECT_EQ(begins.size(), static_cast<std::size_t>(broken + 12));
+    const std::size_t end = begins[static_cast<std::size_t>(broken) + 2];
+    std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(begins[2]),
+              bytes.begin() + static_cast<std::ptrdiff_t>(end), '\0');
+    std::ofstream(movie, std::ios::binary) << bytes;
+    return movie;
+  }
 
   support::TemporaryFolder folder_;
 };
@@ -50,6 +77,33 @@ TEST_F(MovieFrames, BeginLaterAndEndWhereItIsSaid) {
   ASSERT_TRUE(
       forMovieFrames(path("m.mkv"), {}, [&](const ImageView&, Duration) { return ++count < 4; }));
   EXPECT_EQ(count, 4);
+}
+
+TEST_F(MovieFrames, EndAfterTooManyBrokenOnes) {
+  int count = 0;
+  const auto take = [&](const ImageView&, Duration) {
+    ++count;
+    return true;
+  };
+  ASSERT_TRUE(forMovieFrames(movieBrokenWithin(100), {}, take));
+  EXPECT_EQ(count, 12) << "a few are left out";
+  count = 0;
+  ASSERT_TRUE(forMovieFrames(movieBrokenWithin(300), {}, take));
+  EXPECT_EQ(count, 2) << "nobody waits for what may come";
+}
+
+TEST_F(MovieFrames, EndAmongBrokenOnesWhereTheyAreNotWantedAnyMore) {
+  int taken = 0;
+  int asked = 0;
+  ASSERT_TRUE(forMovieFrames(
+      movieBrokenWithin(100), {},
+      [&](const ImageView&, Duration) {
+        ++taken;
+        return true;
+      },
+      [&] { return ++asked > 50; }));
+  EXPECT_EQ(taken, 2);
+  EXPECT_EQ(asked, 51);
 }
 
 TEST_F(MovieFrames, WhatIsNoMovieIsSaid) {
