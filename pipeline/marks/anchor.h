@@ -39,8 +39,8 @@ struct Anchor {
   /// The object and triangle that it lies on (ArFrame::ids), a virtual or a real one; 0: a part of
   /// the image without a model. The triangle only with kOnSurface.
   std::uint32_t surface = 0;
-  /// a MotionSource, the flags below, its mover's number less 1 (0x30), and in the upper 16 bits for how long a mover has covered it
-  /// (shaders/anchor.glsl)
+  /// a MotionSource, the flags below, its mover's number less 1 (0x30), and in the upper 16 bits
+  /// for how long a mover has covered it (shaders/anchor.glsl)
   std::uint32_t state = 0;
 
   static constexpr std::uint32_t kSourceBits = 0x0F;

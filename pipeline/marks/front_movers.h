@@ -29,7 +29,8 @@ class FrontMovers {
   FrontMovers(FrontMovers&&) = delete;
   FrontMovers& operator=(FrontMovers&&) = delete;
 
-  /// Adds a frame. `labels`, `shares`: MotionLayers' of all of the camera image, also behind models.
+  /// Adds a frame. `labels`, `shares`: MotionLayers' of all of the camera image, also behind
+  /// models.
   void update(const scene::ArFrame& frame, const gpu::Texture& labels, const gpu::Texture& shares,
               bool isStanding, float stepSeconds);
   /// Forgets the past.

@@ -71,7 +71,8 @@ struct MotionLayers::State {
         ground(TextureFormat::kRgba16f, blocksOf(size)),
         carried(TextureFormat::kRgba8, size),
         numbers(TextureFormat::kRgba8, blocksOf(size)),
-        parts(kPartBytes * static_cast<std::size_t>(blocksOf(size).pixels()), gpu::BufferUsage::kDynamic),
+        parts(kPartBytes * static_cast<std::size_t>(blocksOf(size).pixels()),
+              gpu::BufferUsage::kDynamic),
         normals(TextureFormat::kRgba16f, blocksOfAll(size)),
         normalFlow(TextureFormat::kRgba16f, blocksOfAll(size)),
         moverMotion(TextureFormat::kRgba16f, blocksOfAll(size)),
@@ -282,7 +283,8 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .image("moverMotion", s.moverMotion, ImageAccess::kWrite)
       .dispatch(blocks, kStored);
   if (frame.hasObjects) {
-    s.front.update(frame, s.labels.at(s.now), s.shares.at(s.now), s.hasPast && motion.isStanding(), step);
+    s.front.update(frame, s.labels.at(s.now), s.shares.at(s.now), s.hasPast && motion.isStanding(),
+                   step);
     s.hasFront = true;
   } else {
     s.forgetFront();

@@ -35,10 +35,10 @@ struct MotionLayersOptions {
 /// behind them is known, too. Under parallax, near things may count as movers.
 ///
 /// Movers are told from one another by a number each, of kMostMovers. Parts that hang together when
-/// they are first seen are one mover. Its number goes with its motion, so that two that come together
-/// remain two; where both might be, it is the one whose colours were there. More movers than
-/// that share numbers, those far from one another. All calls on the thread of the GL context that was
-/// current at construction.
+/// they are first seen are one mover. Its number goes with its motion, so that two that come
+/// together remain two; where both might be, it is the one whose colours were there. More movers
+/// than that share numbers, those far from one another. All calls on the thread of the GL context
+/// that was current at construction.
 class MotionLayers {
  public:
   /// `library` has gpu::marksShaders(), gpu::sceneShaders() and gpu::gpuShaders(). `full` is the
@@ -74,9 +74,9 @@ class MotionLayers {
   /// texel. Throws hal::Failure (kUnsupported) where the GPU cannot read such a texture.
   hal::Image readMovers() const;
 
-  /// RGBA16F; a texel is kBlockCells² cells, of the movers 1 to kMostMovers one above the other. RG:
-  /// displacement of the mover's edges since the previous frame, less the background's, px of the
-  /// full image, times their weight; B: that weight.
+  /// RGBA16F; a texel is kBlockCells² cells, of the movers 1 to kMostMovers one above the other.
+  /// RG: displacement of the mover's edges since the previous frame, less the background's, px of
+  /// the full image, times their weight; B: that weight.
   const gpu::Texture& moverMotion() const;
   static constexpr int kBlockCells = 8;
 

@@ -25,8 +25,10 @@ constexpr std::array kViews{
          PainterlyViewer::kStrokes},
     View{{"anchors", "the strokes' anchors: red ones are young"}, PainterlyViewer::kStrokes},
     View{{"movers",
-          "what moves by itself: red where it is sure (the second mover green, the third blue), pale "
-          "where it is not yet, violet where it rests; yellow: just changed; blue: the background is hardly known"},
+          "what moves by itself: red where it is sure (the second mover green, the third blue), "
+          "pale "
+          "where it is not yet, violet where it rests; yellow: just changed; blue: the background "
+          "is hardly known"},
          PainterlyViewer::kMovers},
     View{{"background", "the background as it is remembered; black: never seen"},
          PainterlyViewer::kMovers},

@@ -76,7 +76,8 @@ class TwoMoversTest : public MotionLayersTest {
     seeImage(pictureOf(discs), motion);
   }
 
-  /// Of the cells in which a disc is seen, 3 px from any border: how many have each number, or none.
+  /// Of the cells in which a disc is seen, 3 px from any border: how many have each number, or
+  /// none.
   std::array<std::array<int, 4>, kMovers> numbersOf(const Discs& discs) const {
     constexpr double kBorder = 3.0;
     const hal::Image shares = support::readRgba8(layers_->shares());

@@ -54,8 +54,8 @@ class SmoothStrokesTest : public StripTest {
     return grey;
   }
 
-  /// The worst of some displacements: the mean square of what a picture is off from the one at whole
-  /// pixels, moved there by cubic convolution, in parts of what is finer than 6 px in it.
+  /// The worst of some displacements: the mean square of what a picture is off from the one at
+  /// whole pixels, moved there by cubic convolution, in parts of what is finer than 6 px in it.
   double worstChange(float label) {
     const cv::Mat1f still = drawn(label, {0, 0});
     cv::Mat1f coarse;
@@ -64,8 +64,8 @@ class SmoothStrokesTest : public StripTest {
     cv::Mat1f fine;
     cv::subtract(still(inner), coarse(inner), fine);
     double worst = 0.0;
-    for (const glm::vec2 by : {glm::vec2(0.5F, 0), glm::vec2(0, 0.5F), glm::vec2(0.5F, 0.5F),
-                               glm::vec2(0.25F, 0.75F)}) {
+    for (const glm::vec2 by :
+         {glm::vec2(0.5F, 0), glm::vec2(0, 0.5F), glm::vec2(0.5F, 0.5F), glm::vec2(0.25F, 0.75F)}) {
       const cv::Mat back = (cv::Mat_<float>(2, 3) << 1, 0, by.x, 0, 1, by.y);
       cv::Mat1f moved;
       cv::warpAffine(drawn(label, by), moved, back, still.size(),

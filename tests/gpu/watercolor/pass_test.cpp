@@ -1,4 +1,6 @@
 // Each pass against the thesis's formula on the CPU.
+#include <cmath>
+
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
@@ -70,8 +72,7 @@ class PassTest : public StyleTest, public testing::WithParamInterface<Size> {
     for (const std::uint32_t word : words()) result.push_back(word & 0x3FFFFFU);
     return result;
   }
-  static constexpr double kFarSquared = 40.0 * 40.0;  // px²
-  static constexpr double kFarRounding = 1e-3;
+  static constexpr double kRoundingPx = 1.0 / 16.0;
   /// That each pixel has the nearest site, or one as near.
   void expectNearest(const std::vector<Site>& sites) const {
     const hal::FrameSize size = GetParam().pixels;
@@ -84,9 +85,9 @@ class PassTest : public StyleTest, public testing::WithParamInterface<Size> {
       ASSERT_LT(found[i], sites.size());
       ASSERT_TRUE(sites[found[i]].exists) << x << "," << y;
       const double least = oracles::powerDistance(sites[wanted[i]], x, y);
-      // Far seeds' distances are rounded (shaders/tile.comp).
-      const double most = least < kFarSquared ? least : least * (1.0 + kFarRounding);
-      ASSERT_LE(oracles::powerDistance(sites[found[i]], x, y), most)
+      // Distances are rounded where there are many seeds (shaders/tile.comp).
+      const double most = std::sqrt(least) + kRoundingPx;
+      ASSERT_LE(oracles::powerDistance(sites[found[i]], x, y), most * most)
           << x << "," << y << ": " << found[i] << " for " << wanted[i];
     }
   }
