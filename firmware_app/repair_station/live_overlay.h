@@ -44,7 +44,7 @@ class LiveOverlay {
   using Content = std::shared_ptr<const overlay::OverlayContent>;
   using Movie = std::shared_ptr<const overlay::PanelMovie>;
 
-  /// What comes later than a step's instruction.
+  /// A part of a step that is made after its instruction: its inset, or its movie.
   template <class T>
   struct Late {
     std::optional<StepShown> of;  ///< the step that it was made for last, or is being made for

@@ -8,7 +8,6 @@
 #include <map>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -19,6 +18,7 @@
 #include "pipeline/gpu/handle.h"
 #include "pipeline/scene/description/scene_file.h"
 #include "tests/bench/benchmarks.h"
+#include "tests/bench/workbench_film.h"
 
 namespace {
 
@@ -32,14 +32,7 @@ const std::vector<hal::CapturedFrame>& workbench(hal::FrameSize size) {
   static std::map<std::pair<int, int>, std::vector<hal::CapturedFrame>> made;
   std::vector<hal::CapturedFrame>& frames = made[{size.width, size.height}];
   if (!frames.empty()) return frames;
-  hal::SteppedClock clock;
-  hal::SyntheticCamera camera({.size = size, .frameCount = kFrames}, clock);
-  hal::orThrow(camera.start({}));
-  for (std::uint64_t i = 0; i < kFrames; ++i) {
-    hal::NextFrame next = camera.next(hal::TimePoint::max());
-    frames.push_back(std::get<hal::CapturedFrame>(std::move(next)));
-  }
-  camera.stop();
+  frames = workbenchFilm(size, kFrames);
   return frames;
 }
 
@@ -72,10 +65,8 @@ class Bench {
     for (int i = 0; i < 8; ++i) paint();
     waitForGpu();
   }
-  /// Forth and back, so that no frame is far from the one before.
   void paint() {
-    const std::uint64_t place = number_ % (2 * kFrames - 2);
-    hal::CapturedFrame frame = frames_[place < kFrames ? place : 2 * kFrames - 2 - place];
+    hal::CapturedFrame frame = frames_[forthAndBack(number_, kFrames)];
     frame.sequence = number_;
     frame.captureTime = timeOfFrame(number_);
     ++number_;

@@ -20,6 +20,7 @@
 #include "pipeline/engine/painter.h"
 #include "pipeline/scene/description/scene_file.h"
 #include "tests/bench/benchmarks.h"
+#include "tests/bench/workbench_film.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {
@@ -34,14 +35,9 @@ constexpr int kPairs = 16;
 /// A recording in memory, whose scene has the procedure's machine; and a step of the procedure.
 struct Station {
   Station(hal::FrameSize size, const std::string& step) {
+    frames = bench::workbenchFilm(size, kFrames);
     hal::SteppedClock clock;
-    hal::SyntheticCamera camera({.size = size, .frameCount = kFrames}, clock);
-    hal::orThrow(camera.start({}));
-    for (std::uint64_t i = 0; i < kFrames; ++i) {
-      hal::NextFrame next = camera.next(hal::TimePoint::max());
-      frames.push_back(std::get<hal::CapturedFrame>(std::move(next)));
-    }
-    camera.stop();
+    const hal::SyntheticCamera camera({.size = size, .frameCount = kFrames}, clock);
     const support::TemporaryFolder folder;
     const auto path = folder.path() / "bench.toml";
     hal::orThrow(app::writeWorkbenchScene(path, camera.truth(0), size));
@@ -76,8 +72,7 @@ class Chain {
   }
 
   void paint() {
-    const std::uint64_t place = number_ % (2 * kFrames - 2);
-    hal::CapturedFrame frame = station_.frames[place < kFrames ? place : 2 * kFrames - 2 - place];
+    hal::CapturedFrame frame = station_.frames[forthAndBack(number_, kFrames)];
     frame.sequence = number_;
     frame.captureTime = timeOfFrame(number_);
     ++number_;

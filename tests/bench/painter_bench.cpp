@@ -19,6 +19,7 @@
 #include "hal/cameras/synthetic/synthetic_camera.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/scene/description/scene_file.h"
+#include "tests/bench/workbench_film.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {
@@ -30,14 +31,9 @@ constexpr std::uint64_t kFrames = 24;
 /// A recorded sequence in memory.
 struct Recording {
   explicit Recording(hal::FrameSize size) {
+    frames = bench::workbenchFilm(size, kFrames);
     hal::SteppedClock clock;
-    hal::SyntheticCamera camera({.size = size, .frameCount = kFrames}, clock);
-    hal::orThrow(camera.start({}));
-    for (std::uint64_t i = 0; i < kFrames; ++i) {
-      hal::NextFrame next = camera.next(hal::TimePoint::max());
-      frames.push_back(std::get<hal::CapturedFrame>(std::move(next)));
-    }
-    camera.stop();
+    const hal::SyntheticCamera camera({.size = size, .frameCount = kFrames}, clock);
     const support::TemporaryFolder folder;
     const auto path = folder.path() / "bench.toml";
     hal::orThrow(app::writeWorkbenchScene(path, camera.truth(0), size));
@@ -46,12 +42,6 @@ struct Recording {
   std::vector<hal::CapturedFrame> frames;
   scene::Scene scene;
 };
-
-/// Forth and back, so that no frame is far from the one before.
-std::size_t frameAt(std::uint64_t number) {
-  const std::uint64_t place = number % (2 * kFrames - 2);
-  return place < kFrames ? place : 2 * kFrames - 2 - place;
-}
 
 double medianOf(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -79,7 +69,7 @@ class Chain {
   }
   /// Whether tags were found.
   bool paint() {
-    hal::CapturedFrame frame = recording_.frames[frameAt(number_)];
+    hal::CapturedFrame frame = recording_.frames[bench::forthAndBack(number_, kFrames)];
     frame.sequence = number_;
     frame.captureTime =
         hal::TimePoint(hal::Duration(33'333'333) * static_cast<std::int64_t>(number_));

@@ -21,6 +21,7 @@
 #include "hal/cameras/synthetic/synthetic_camera.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/scene/description/scene_file.h"
+#include "tests/bench/workbench_film.h"
 
 namespace {
 
@@ -30,25 +31,6 @@ constexpr std::uint64_t kFrames = 16;
 
 hal::SyntheticOptions workbenchOf(hal::FrameSize size) {
   return {.size = size, .frameCount = kFrames};
-}
-
-std::vector<hal::CapturedFrame> workbench(hal::FrameSize size) {
-  hal::SteppedClock clock;
-  hal::SyntheticCamera camera(workbenchOf(size), clock);
-  hal::orThrow(camera.start({}));
-  std::vector<hal::CapturedFrame> frames;
-  for (std::uint64_t i = 0; i < kFrames; ++i) {
-    hal::NextFrame next = camera.next(hal::TimePoint::max());
-    frames.push_back(std::get<hal::CapturedFrame>(std::move(next)));
-  }
-  camera.stop();
-  return frames;
-}
-
-/// Forth and back, so that no frame is far from the one before.
-std::size_t frameAt(std::uint64_t number) {
-  const std::uint64_t place = number % (2 * kFrames - 2);
-  return place < kFrames ? place : 2 * kFrames - 2 - place;
 }
 
 /// What is on the bench. `kTags`: only what models would be attached to.
@@ -75,7 +57,7 @@ scene::Scene sceneOf(hal::FrameSize size, Shown shown) {
 struct Bench {
   Bench(hal::FrameSize size, const char* style, gpu::PassTiming timing,
         Shown shown = Shown::kNothing)
-      : frames(workbench(size)),
+      : frames(bench::workbenchFilm(size, kFrames)),
         painter({.pictureSize = size,
                  .scene = sceneOf(size, shown),
                  .style = style,
@@ -85,7 +67,7 @@ struct Bench {
     for (int i = 0; i < 8; ++i) paint();
   }
   void paint() {
-    hal::CapturedFrame frame = frames[frameAt(number)];
+    hal::CapturedFrame frame = frames[bench::forthAndBack(number, kFrames)];
     frame.sequence = number;
     frame.captureTime =
         hal::TimePoint(hal::Duration(33'333'333) * static_cast<std::int64_t>(number));
@@ -174,7 +156,7 @@ void stages(benchmark::State& state, const char* style, Shown shown = Shown::kNo
 
 void stylization(benchmark::State& state) {
   std::vector<cv::Mat> frames;
-  for (const hal::CapturedFrame& each : workbench(sizeOf(state))) {
+  for (const hal::CapturedFrame& each : bench::workbenchFilm(sizeOf(state), kFrames)) {
     cv::Mat bgr;
     const hal::FrameSize size = each.image.format.size;
     auto* const luma = const_cast<std::uint8_t*>(each.image.map().view().row(0, 0).data());
@@ -185,7 +167,8 @@ void stylization(benchmark::State& state) {
   }
   cv::Mat painted;
   std::uint64_t number = 0;
-  for ([[maybe_unused]] auto _ : state) cv::stylization(frames[frameAt(number++)], painted);
+  for ([[maybe_unused]] auto _ : state)
+    cv::stylization(frames[bench::forthAndBack(number++, kFrames)], painted);
 }
 
 void atSizes(benchmark::internal::Benchmark* benchmark) {

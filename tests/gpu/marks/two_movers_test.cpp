@@ -76,8 +76,7 @@ class TwoMoversTest : public MotionLayersTest {
     seeImage(pictureOf(discs), motion);
   }
 
-  /// Of the cells in which a disc is seen, 3 px from any border: how many have each number, or
-  /// none.
+  /// Counts the cells of each disc by their number (0: none), 3 px from any border.
   std::array<std::array<int, 4>, kMovers> numbersOf(const Discs& discs) const {
     constexpr double kBorder = 3.0;
     const hal::Image shares = support::readRgba8(layers_->shares());
@@ -129,7 +128,7 @@ TEST_F(TwoMoversTest, KeepTheirNumbersWhilePassing) {
     if (i < 6) continue;
     ASSERT_NE(numbers[0], numbers[1]);
     EXPECT_GT(shareOf(found[0], numbers[0]), 0.9) << "of the nearer one";
-    // What comes out from behind takes the nearer one's number for a while.
+    // The farther disc takes the nearer one's number for a while where it comes out from behind.
     EXPECT_GT(shareOf(found[1], numbers[1]), 0.55) << "of the other one";
   }
 }
