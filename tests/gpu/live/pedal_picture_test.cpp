@@ -24,11 +24,11 @@
 #include "firmware_app/repair_station/live_overlay.h"
 #include "firmware_app/repair_station/live_procedure.h"
 #include "firmware_app/repair_station/step_inputs.h"
-#include "pipeline/gpu/egl_context.h"
 #include "pipeline/styles/registry.h"
 #include "tests/support/awaited.h"
 #include "tests/support/fake_keyboards.h"
 #include "tests/support/live_simulation.h"
+#include "tests/support/needs_gpu.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pleinair::app {
@@ -91,14 +91,11 @@ class WatchedOutput final : public hal::MemoryOutput {
 };
 
 /// A repair station without a scene: the instruction over a grey picture, 30 frames a second.
-class PedalPictureTest : public testing::Test {
+class PedalPictureTest : public support::NeedsGpu {
  protected:
   void SetUp() override {
-    try {
-      const gpu::EglContext context;
-    } catch (const hal::Failure& error) {
-      GTEST_SKIP() << "needs OpenGL ES 3.1: " << error.what();
-    }
+    NeedsGpu::SetUp();
+    if (IsSkipped()) return;
     writeProcedure();
     procedure_.emplace(LiveProcedureOptions{.folder = service(),
                                             .records = folder_.path() / "records",

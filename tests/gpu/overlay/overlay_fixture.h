@@ -1,22 +1,9 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include "hal/error.h"
-#include "pipeline/gpu/egl_context.h"
+#include "tests/support/needs_gpu.h"
 
 namespace pleinair {
 
-/// Skips, saying why, where no context can be had.
-class OverlayTest : public testing::Test {
- protected:
-  void SetUp() override {
-    try {
-      const gpu::EglContext context;
-    } catch (const hal::Failure& error) {
-      GTEST_SKIP() << "needs OpenGL ES 3.1: " << error.what();
-    }
-  }
-};
+class OverlayTest : public support::NeedsGpu {};
 
 }  // namespace pleinair

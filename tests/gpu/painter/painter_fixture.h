@@ -10,7 +10,7 @@
 
 #include "hal/error.h"
 #include "pipeline/engine/painter.h"
-#include "pipeline/gpu/egl_context.h"
+#include "tests/support/needs_gpu.h"
 #include "tests/support/test_pictures.h"
 
 namespace pleinair {
@@ -52,16 +52,6 @@ inline std::vector<std::uint8_t> painted(Painter& painter, const hal::CapturedFr
   return painted(painter, frame, parameters);
 }
 
-/// Skips, saying why, where no context can be had.
-class PainterTest : public testing::Test {
- protected:
-  void SetUp() override {
-    try {
-      const gpu::EglContext context;
-    } catch (const hal::Failure& error) {
-      GTEST_SKIP() << "needs OpenGL ES 3.1: " << error.what();
-    }
-  }
-};
+class PainterTest : public support::NeedsGpu {};
 
 }  // namespace pleinair
