@@ -4,6 +4,8 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
@@ -122,6 +124,16 @@ struct Moments {
     const double explained = varianceI > 0 ? covariance * covariance / varianceI : 0;
     return std::max(0.0, varianceO - explained);
   }
+  /// The best line, by its gain and its value at 0; a mere shift where the input varies by less
+  /// than `leastDeviation`.
+  std::pair<double, double> line(double leastDeviation) const {
+    if (!(count > 0)) return {1.0, 0.0};
+    const double varianceI = ii / count - i / count * (i / count);
+    const double covariance = io / count - i / count * (o / count);
+    const bool varies = varianceI >= leastDeviation * leastDeviation;
+    const double gain = varies ? covariance / varianceI : 1.0;
+    return {gain, (o - gain * i) / count};
+  }
 };
 
 }  // namespace
@@ -142,6 +154,27 @@ Mean deviation(const cv::Mat3f& output, const cv::Mat3f& input) {
   Mean mean;
   for (const Moments& channel : channels) mean += {channel.residual(), channel.count};
   return mean;
+}
+
+cv::Mat3b inPaletteOf(const cv::Mat3b& painting, const cv::Mat3b& input, const cv::Mat1b& without) {
+  constexpr double kLeastDeviation = 8.0;  // levels: less tells no gain
+  const cv::Rect inner = innerRect(input.size());
+  cv::Mat3b matched(input.size());
+  for (int c = 0; c < 3; ++c) {
+    Moments channel;
+    for (int y = inner.y; y < inner.br().y; ++y) {
+      for (int x = inner.x; x < inner.br().x; ++x) {
+        if (without(y, x) == 0) channel.add(input(y, x)[c], painting(y, x)[c]);
+      }
+    }
+    const auto [gain, offset] = channel.line(kLeastDeviation);
+    for (int y = 0; y < input.rows; ++y) {
+      for (int x = 0; x < input.cols; ++x) {
+        matched(y, x)[c] = cv::saturate_cast<std::uint8_t>(gain * input(y, x)[c] + offset);
+      }
+    }
+  }
+  return matched;
 }
 
 Mean meanSquare(const cv::Mat3f& picture) {

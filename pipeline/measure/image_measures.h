@@ -38,6 +38,10 @@ Mean lastingMarks(const cv::Mat1f& earlier, const Warped<cv::Mat1f>& later);
 /// 255 times its root.
 Mean deviation(const cv::Mat3f& output, const cv::Mat3f& input);
 
+/// The input with the gain and the offset of each channel that make it most like the painting where
+/// `without` is 0; with an offset alone where the input varies by less than 8 levels there.
+cv::Mat3b inPaletteOf(const cv::Mat3b& painting, const cv::Mat3b& input, const cv::Mat1b& without);
+
 /// Mean square within the border; of a high pass it is the amount of detail.
 Mean meanSquare(const cv::Mat3f& picture);
 

@@ -25,7 +25,7 @@ struct MoverSummary {
   /// GHOST: the same after 0.2 s, over the mover's contrast.
   std::optional<double> ghost;
   /// LOST: of the mover's pixels, those whose painting is nearer to the painted ground than to the
-  /// camera's picture.
+  /// camera's picture in the painting's palette.
   std::optional<double> lostPercent;
   /// REMAINS: where a mover stood in the first frame, from 1 s after it has left, the pixels whose
   /// painting is nearer to that of the first frame than to the camera's picture.

@@ -6,6 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "pipeline/measure/image_measures.h"
 #include "pipeline/measure/input/picture.h"
 
 namespace pleinair::measure {
@@ -124,7 +125,8 @@ bool UncoveredRegion::awaitsReturn(Visit& visit, cv::Point at, const MoverFrame&
 void LostRegion::add(const MoverFrame& frame, const Ground& ground) {
   if (cv::countNonZero(frame.zones.within) == 0) return;
   const cv::Mat3b output = smoothed(frame.output);
-  const cv::Mat3b input = smoothed(frame.input);
+  // A mover in a light palette is not lost because it is lighter than the camera saw it.
+  const cv::Mat3b input = smoothed(inPaletteOf(frame.output, frame.input, frame.zones.far));
   const cv::Mat3b before = smoothed(ground.painting());
   forEachInner(frame.input.size(), [&](cv::Point at) {
     if (frame.zones.within(at) == 0 || !ground.isKnown(at)) return;

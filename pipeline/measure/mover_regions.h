@@ -89,7 +89,7 @@ class UncoveredRegion {
 };
 
 /// The mover's clear pixels. LOST, percent: those whose painting is nearer to the painted ground
-/// than to the camera's picture.
+/// than to the camera's picture in the painting's palette (inPaletteOf()).
 class LostRegion {
  public:
   void add(const MoverFrame& frame, const Ground& ground);

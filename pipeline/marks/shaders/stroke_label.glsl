@@ -12,6 +12,9 @@ bool isGround(uint label) { return label == 0u || label >= kSegmentLabel; }
 // Whether a label is a model's.
 bool isPatch(uint label) { return label != 0u && label < kSegmentLabel - 3u; }
 
+// Whether a label is a model's or a mover's: what does not go with the camera image.
+bool goesByItself(uint label) { return label != 0u && label < kSegmentLabel; }
+
 // Whether a stroke may cover a place. Where the image has no segment, none ends a stroke, nor does
 // any end a stroke without one.
 bool mayCover(uint label, uint there) {

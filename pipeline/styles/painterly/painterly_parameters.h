@@ -25,7 +25,7 @@ enum class StrokeBump { kOnce, kEach, kOff };
 struct PainterlyParameters {
   int seed = 1;
   int layers = 4;
-  double strokeSizePixels = 4.0;  // the finest layer's width, of a picture of 640x480
+  double strokeSizePixels = 3.7;  // the finest layer's width, of a picture of 640x480
   double layerRatio = 2.0;        // each coarser layer's strokes are wider by this
   double coverage = 3.5;          // strokes of a layer that lie over each other
   double length = 8.0;            // of a stroke, in widths
@@ -41,7 +41,7 @@ struct PainterlyParameters {
   double focusY = 0.5;
   double focusRadius = 0.25;
   double focusFalloff = 0.25;
-  double opacity = 0.95;
+  double opacity = 1.0;
   double leaveLight = 0.0;
   double widthVariation = 0.25;
   double hueJitter = 0.03;

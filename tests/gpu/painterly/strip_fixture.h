@@ -28,6 +28,11 @@ struct LaidStroke {
 };
 static_assert(sizeof(LaidStroke) == marks::StrokeSet::kInstanceBytes);
 
+/// Its side fades out over a pixel.
+inline float drawnHalfWidth(const LaidStroke& stroke) {
+  return stroke.halfWidth + 0.75F;
+}
+
 /// Its points evenly from one place to another.
 inline LaidStroke straightStroke(glm::vec2 from, glm::vec2 to) {
   LaidStroke stroke;

@@ -6,6 +6,7 @@
 #include <random>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
 #include <gmock/gmock.h>
 
 #include "tests/gpu/painterly/strip_fixture.h"
@@ -61,7 +62,7 @@ double furthestOff(const LaidStroke& stroke, std::span<const StripVertex> strip)
     worst = std::max(worst, distanceTo(at, middlesOf(strip)));
     const glm::dvec2 along = glm::normalize(oracles::splinePlace(points, s + 1e-3) -
                                             oracles::splinePlace(points, s - 1e-3));
-    const glm::dvec2 across = double{stroke.halfWidth} * glm::dvec2(-along.y, along.x);
+    const glm::dvec2 across = double{drawnHalfWidth(stroke)} * glm::dvec2(-along.y, along.x);
     worst = std::max(
         {worst, std::min(distanceTo(at + across, sides[0]), distanceTo(at + across, sides[1]))});
   }
@@ -84,9 +85,9 @@ TEST_F(StripsTest, AStraightStrokeIsOneQuad) {
   const glm::vec2 across(-0.6F, 0.8F);
   const glm::vec2 start = glm::vec2(20.0F, 30.0F) - 0.6F * 4.0F * along;
   const glm::vec2 end = glm::vec2(60.0F, 60.0F) + 0.6F * 4.0F * along;
-  const std::array<glm::vec2, 6> corners{start - 4.0F * across, start - 4.0F * across,
-                                         start + 4.0F * across, end - 4.0F * across,
-                                         end + 4.0F * across,   end + 4.0F * across};
+  const glm::vec2 aside = drawnHalfWidth(stroke) * across;
+  const std::array<glm::vec2, 6> corners{start - aside, start - aside, start + aside,
+                                         end - aside,   end + aside,   end + aside};
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_LT(glm::distance(strip[i].at, corners.at(i)), 0.01F) << i;
     EXPECT_NEAR(strip[i].brush[0] / 65535.0, i < 3 ? 0.0 : 1.0, 1e-4);
@@ -196,8 +197,12 @@ TEST_F(StripsTest, BrushesVariantsAndObjectsAreTold) {
     EXPECT_LT(row, 3.0);
     EXPECT_NEAR(4.0 * all[i + 6].brush[1] / 65535.0, 5.0 - row, 1e-3) << "the other way round";
   }
-  EXPECT_EQ(all[0].shape[1], 0x3C00U);  // 1 and -1, as halves
-  EXPECT_EQ(all[6].shape[1], 0xBC00U);
+  const float drawn = drawnHalfWidth(plain) / plain.halfWidth;
+  const float ofMover = drawn + 4.0F;  // its bristles are soft
+  EXPECT_NEAR(glm::unpackHalf1x16(all[0].shape[1]), ofMover, 2e-3);
+  EXPECT_NEAR(glm::unpackHalf1x16(all[6].shape[1]), -ofMover, 2e-3);
+  plain.label = 4096.0F;
+  EXPECT_NEAR(glm::unpackHalf1x16(only(plain)[0].shape[1]), drawn, 2e-3);
 }
 
 }  // namespace

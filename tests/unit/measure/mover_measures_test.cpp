@@ -193,6 +193,34 @@ TEST(MoverMeasures, APainterThatNeverPaintsMoversLosesThem) {
   EXPECT_LT(report.painting.ghost.value(), 0.05);
 }
 
+/// A dark bar before a wall that goes from dark to light, and paintings in a light palette: what is
+/// nearest to the painted bar is the wall.
+TEST(MoverMeasures, AMoverInALightPaletteIsNotLost) {
+  const auto before = [](int frame, std::uint8_t bar) {
+    cv::Mat3b picture = seen(frame);
+    for (int y = 0; y < picture.rows; ++y) {
+      for (int x = 0; x < picture.cols; ++x) {
+        picture(y, x) = cv::Vec3b::all(cv::saturate_cast<std::uint8_t>(60 + y));
+      }
+    }
+    if (const cv::Rect place = barOf(frame); !place.empty()) {
+      picture(place).setTo(cv::Scalar::all(bar));
+    }
+    return picture;
+  };
+  const auto lostOf = [&](std::uint8_t painted) {
+    MoverMeasures measures;
+    for (int i = 0; i < kFrames; ++i) {
+      cv::Mat3b light;
+      before(i, painted).convertTo(light, -1, 0.4, 130.0);
+      measures.add({.time = timeOf(i), .input = imageOf(before(i, 5)), .output = imageOf(light)});
+    }
+    return measures.total().value().painting.lostPercent.value();
+  };
+  EXPECT_LT(lostOf(5), 0.5);
+  EXPECT_GT(lostOf(150), 99.0) << "the control: a bar that is painted as the wall is";
+}
+
 TEST(MoverMeasures, ATrailIsAGhost) {
   // The painting is the mean of the input and of the input ten frames ago.
   const MoverReport report = reportOf([](int frame) {

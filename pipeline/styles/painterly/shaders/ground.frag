@@ -1,5 +1,6 @@
 // Purpose: the ground under the strokes: its colour, with a thin first wash of the image. Movers
-//          get kCoats of their own colours: what their strokes leave bare differs with each step.
+//          get a fuller one of their own colours: what their strokes leave bare differs with each
+//          step.
 // Inputs:  paint: the image, much reduced (LINEAR); moverPaint: movers, less reduced,
 //          premultiplied; mover_labels.glsl's; pixelsOfFull; ground: sRGB-coded; wash: its share;
 //          mixture.glsl's if isLimited.
@@ -17,7 +18,7 @@ uniform bool isLimited;
 layout(location = 0) out vec4 colour;
 layout(location = 1) out vec4 height;
 
-const float kCoats = 3.0;
+const float kMostBare = 0.06;  // of the ground, under a mover
 
 void main() {
   vec3 seen = texture(paint, gl_FragCoord.xy / size).rgb;
@@ -27,7 +28,7 @@ void main() {
   for (int i = moving > 0.0 ? 0 : 1; i < 1; ++i) {
     vec4 mover = texture(moverPaint, gl_FragCoord.xy / size);
     if (mover.a > 0.0) seen = mix(seen, mover.rgb / mover.a, moving);
-    bare = mix(bare, pow(bare, kCoats), moving);
+    bare = mix(bare, min(bare, kMostBare), moving);
   }
   if (isLimited) seen = mixtureOf(seen);
   colour = vec4(mix(seen, ground, bare), 1.0);

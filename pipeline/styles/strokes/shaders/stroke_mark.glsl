@@ -1,7 +1,6 @@
 // Purpose: the mark of a brush, at a fragment of a stroke.
-// Inputs:  brushes: R coverage of the brush's paint, G its height; stroke.vert's of the stroke. Strokes
-//          on models, which move by parts of a pixel, are drawn kSmooth px wider on each side than
-//          they are (stroke_strips.comp): of those, a fragment has the mean of what it covers.
+// Inputs:  brushes: R coverage of the brush's paint, G its height; stroke.vert's of the stroke, which
+//          is drawn kSmooth px wider on each side than it is (stroke_strips.comp).
 // Outputs: 0: sRGB-coded colour, premultiplied, and its coverage; 1: height, premultiplied, and in
 //          G the amount of paint. To be blended over the existing paint.
 // Precision: mediump suffices, except for places.
@@ -16,11 +15,18 @@ layout(location = 1) out vec4 height;
 const float kThinEnd = 1.2;  // widths
 const float kVariants = 4.0;
 const float kSmooth = 0.75;  // px, as in stroke_strips.comp
+const float kSoftBristles = 4.0;  // added to the drawn width of strokes on models and movers
 
-// Across the stroke, from -1 to 1, of one that is drawn wider than it is.
+// The drawn width by the stroke's.
+float drawnWidth() {
+  float width = abs(sense);
+  return width > kSoftBristles ? width - kSoftBristles : width;
+}
+
+// Across the stroke, from -1 to 1; beyond that, where it is only drawn.
 float acrossStroke() {
   float row = kVariants * brush.y;
-  return abs(sense) * (2.0 * (row - floor(row) - 0.02) / 0.96 - 1.0);
+  return drawnWidth() * (2.0 * (row - floor(row) - 0.02) / 0.96 - 1.0);
 }
 
 // The brush's ends keep their shape: a width of each end takes the texture's first and last
@@ -32,22 +38,25 @@ vec2 brushPlace() {
   float onward = fromStart < cap ? 0.25 * fromStart / cap
                  : fromEnd < cap ? 1.0 - 0.25 * fromEnd / cap
                                  : 0.25 + 0.5 * (fromStart - cap) / max(aspect - 2.0 * cap, 1e-3);
-  if (abs(sense) == 1.0) return vec2(onward, brush.y);
   float across = clamp(acrossStroke(), -1.0, 1.0);
   return vec2(onward, (floor(kVariants * brush.y) + 0.5 + 0.48 * across) / kVariants);
 }
 
-// Coverage and height. A pixel is some two texels wide: bristles and sides that are thinner would
-// look different with each part of a pixel that the stroke moves.
+// Coverage and height. The side of a stroke is smooth: a step would look different with each part
+// of a pixel that the stroke moves. So would bristles that are thinner than a pixel; they go where
+// strokes are carried by models and movers.
 vec2 markAt(vec2 place) {
-  if (abs(sense) == 1.0) return texture(brushes, place).rg;
-  vec2 aside = 0.5 / vec2(textureSize(brushes, 0));
-  vec2 sum = texture(brushes, place - aside).rg + texture(brushes, place + aside).rg +
-             texture(brushes, place + vec2(aside.x, -aside.y)).rg +
-             texture(brushes, place + vec2(-aside.x, aside.y)).rg;
-  float halfWidth = kSmooth / (abs(sense) - 1.0);
+  vec2 mark = texture(brushes, place).rg;
+  // A loop that no invocation enters costs nothing on software renderers.
+  for (int i = abs(sense) > kSoftBristles ? 0 : 1; i < 1; ++i) {
+    vec2 aside = 0.5 / vec2(textureSize(brushes, 0));
+    mark = 0.25 * (texture(brushes, place - aside).rg + texture(brushes, place + aside).rg +
+                   texture(brushes, place + vec2(aside.x, -aside.y)).rg +
+                   texture(brushes, place + vec2(-aside.x, aside.y)).rg);
+  }
+  float halfWidth = kSmooth / (drawnWidth() - 1.0);
   float side = clamp(0.5 + halfWidth * (1.0 - abs(acrossStroke())), 0.0, 1.0);
-  return 0.25 * sum * vec2(side, 1.0);
+  return mark * vec2(side, 1.0);
 }
 
 // Less pigment on the sides of ridges, more in the shade of furrows: the colour follows the height.

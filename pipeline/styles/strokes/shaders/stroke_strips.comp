@@ -1,11 +1,12 @@
 // Purpose: the vertices of strokes: each stroke is a strip of quads along its spline, and all
 //          strips are joined into one.
 // Defines: LONG: stroke_strip.glsl's. Vertices then have half of the width at their place and the
-//          length, px, as the shape, and in `brush` the part across the stroke; the sides are
-//          kSmooth px further out, for smooth edges; `label` has the variant in its upper half.
+//          length, px, as the shape, and in `brush` the part across the stroke; `label` has the
+//          variant in its upper half.
 // Inputs:  instances, instanceCount of them in drawn; plans (stroke_offsets.comp); even: if above
 //          0, the number of quads of every strip (the thesis's 4 (n + 2), §4.4).
-// Outputs: vertices in the layout of stroke.vert. One invocation per stroke.
+// Outputs: vertices in the layout of stroke.vert, the sides kSmooth px further out, for smooth
+//          edges. One invocation per stroke.
 // Precision: highp.
 #include "pipeline/marks/shaders/stroke_label.glsl"
 #include "pipeline/styles/strokes/shaders/strip_spline.glsl"
@@ -16,7 +17,7 @@ struct Vertex {
   uint along;   // snorms: the stroke's direction
   uvec2 paint;  // halves
   uint shape;  // halves: the stroke's length by its width; the sense of the brush across it, times
-               // the drawn width by the stroke's
+               // the drawn width by the stroke's, plus kSoftBristles
   uint label;
 };
 layout(std430, binding = 1) readonly buffer Drawn { DrawCommand drawn; };
@@ -27,6 +28,7 @@ uniform uint even;
 
 const float kVariants = 4.0;
 const float kSmooth = 0.75;  // px
+const float kSoftBristles = 4.0;  // as in stroke_mark.glsl
 const float kBeyond = 0.6;  // half widths: the brush's own round ends go beyond the skeleton's
 
 void main() {
@@ -45,8 +47,8 @@ void main() {
   uint variant = uint(shape.y) & 3u;
   float sense = shape.y >= kVariants ? -1.0 : 1.0;
 #ifndef LONG
-  // Strokes on models move by parts of a pixel: their sides are smooth (stroke_mark.glsl).
-  float broader = isPatch(uint(shape.z)) ? 1.0 + kSmooth / max(shape.x, 0.5) : 1.0;
+  float broader = 1.0 + kSmooth / max(shape.x, 0.5);
+  float drawn = broader + (goesByItself(uint(shape.z)) ? kSoftBristles : 0.0);
 #endif
   Vertex made;
   made.paint = uvec2(packHalf2x16(paint.rg), packHalf2x16(paint.ba));
@@ -55,7 +57,7 @@ void main() {
   made.shape = packHalf2x16(vec2(aspect, sense));
   made.label = uint(shape.z) | variant << 16u;
 #else
-  made.shape = packHalf2x16(vec2(aspect, sense * broader));
+  made.shape = packHalf2x16(vec2(aspect, sense * drawn));
   made.label = uint(shape.z);
 #endif
   uint next = plan.first;
