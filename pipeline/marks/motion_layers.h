@@ -14,7 +14,7 @@ namespace pleinair::marks {
 
 struct MotionLayersOptions {
   /// after which a mover that has stopped counts as background
-  hal::Duration rest = std::chrono::seconds(4);
+  hal::Duration rest = std::chrono::seconds(20);
   /// the same for one that is before a virtual model (FrontMovers)
   hal::Duration restBeforeModels = std::chrono::seconds(30);
 };
