@@ -13,8 +13,9 @@
 namespace pleinair::marks {
 
 struct MotionLayersOptions {
-  /// after which a mover that has stopped counts as background
-  hal::Duration rest = std::chrono::seconds(20);
+  /// after which a mover that has stopped counts as background; at most 16 s, since it is counted
+  /// in half floats: frames of high rates would add nothing
+  hal::Duration rest = std::chrono::seconds(15);
   /// the same for one that is before a virtual model (FrontMovers)
   hal::Duration restBeforeModels = std::chrono::seconds(30);
 };

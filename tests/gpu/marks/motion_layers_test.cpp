@@ -138,7 +138,7 @@ TEST_F(MotionLayersTest, WhatComesToRestStaysItselfForAWhile) {
 }
 
 /// A disc that was seen to move counts as a mover for MotionLayersOptions::rest.
-TEST_F(MotionLayersTest, AMoverThatRestsJoinsTheBackgroundAfterFourSeconds) {
+TEST_F(MotionLayersTest, AMoverThatRestsJoinsTheBackgroundAfterFifteenSeconds) {
   see({});
   see({});
   View view{.radius = 35.0};
@@ -146,9 +146,9 @@ TEST_F(MotionLayersTest, AMoverThatRestsJoinsTheBackgroundAfterFourSeconds) {
     view.disc = {60.0 + 8.0 * i, 120.0};
     seeDiscMoved(view, {8.0, 0.0});
   }
-  rest(view, std::chrono::milliseconds(3700));
+  rest(view, std::chrono::milliseconds(14200));
   EXPECT_GT(overlapWith(view).iou(), 0.8);
-  rest(view, std::chrono::milliseconds(600));
+  rest(view, std::chrono::milliseconds(1800));
   EXPECT_EQ(movers(), 0);
 }
 
