@@ -148,7 +148,7 @@ constexpr std::array<Look, 6> kLooks{{
     {"oil", "layers of bristle strokes, from large to small", ""},
     {"impasto", "thick paint, put on in short bold strokes that catch the light", R"(
 layers = 3
-stroke_size = 6
+stroke_size = 5.5
 layer_ratio = 1.8
 length = 7
 detail = 0.35
@@ -162,7 +162,7 @@ canvas = 0.05
 )"},
     {"gouache", "flat, matt and opaque", R"(
 layers = 3
-stroke_size = 4
+stroke_size = 3.5
 detail = 0.2
 layer_ratio = 2.2
 length = 6
@@ -179,7 +179,7 @@ wash = 1
 warmth = 0.05
 )"},
     {"pastel", "dry chalk on toned paper, which shines through", R"(
-stroke_size = 4.5
+stroke_size = 4.2
 length = 7
 layers = 3
 brush = "dry"
