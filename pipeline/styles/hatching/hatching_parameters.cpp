@@ -216,7 +216,7 @@ brush = "pencil"
 grain = 0.5
 tooth = 0.6
 contours = 0.6
-lift = 0.35
+lift = 0
 contour_width = 1.3
 )"},
 }};
