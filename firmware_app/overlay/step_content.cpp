@@ -49,23 +49,28 @@ PartLook lookOf(procedure::PartView view) {
   return PartLook::kPlain;
 }
 
+overlay::PartShape shapeIn(const Step& step, const scene::Model& machine, std::size_t part) {
+  return overlay::alongAxis(overlay::shapeOf(machine, part), step.axis);
+}
+
 /// How far parts are shown from their place: all of a step alike, so that they keep their order.
-double apartMetres(const scene::Model& machine, const std::vector<std::size_t>& parts) {
+double apartMetres(const Step& step, const scene::Model& machine,
+                   const std::vector<std::size_t>& parts) {
   const double whole = scene::boundingSphere(machine).radiusMetres;
   double longest = 0.0;
   for (const std::size_t each : parts) {
-    longest = std::max(longest, overlay::shapeOf(machine, each).halfLength);
+    longest = std::max(longest, shapeIn(step, machine, each).halfLength);
   }
   return std::clamp(2.4 * longest, 0.18 * whole, 0.55 * whole);
 }
 
-void addGhosts(const scene::Model& machine, const std::vector<std::size_t>& parts, bool comesHome,
-               OverlayContent& content) {
+void addGhosts(const Step& step, const scene::Model& machine, const std::vector<std::size_t>& parts,
+               bool comesHome, OverlayContent& content) {
   if (parts.empty()) return;
-  const double apart = apartMetres(machine, parts);
+  const double apart = apartMetres(step, machine, parts);
   for (const std::size_t each : parts) {
     content.ghosts.push_back({.part = each,
-                              .apartMetres = apart * overlay::shapeOf(machine, each).axis,
+                              .apartMetres = apart * shapeIn(step, machine, each).axis,
                               .comesHome = comesHome});
   }
 }
@@ -85,12 +90,12 @@ void addParts(const StepShown& shown, const scene::Model& machine, OverlayConten
   for (const auto& [part, metres] : step.apart) {
     content.ghosts.push_back(
         {.part = part,
-         .apartMetres = metres / shown.procedure->unitMetres * overlay::shapeOf(machine, part).axis,
+         .apartMetres = metres / shown.procedure->unitMetres * shapeIn(step, machine, part).axis,
          .stays = true});
   }
   if (step.motion != procedure::Motion::kNone && step.apart.empty()) {
-    addGhosts(machine, step.removes, false, content);
-    addGhosts(machine, step.fits, true, content);
+    addGhosts(step, machine, step.removes, false, content);
+    addGhosts(step, machine, step.fits, true, content);
   }
   content.arrows = arrowsOf(step, machine);
 }

@@ -78,14 +78,14 @@ std::vector<overlay::Arrow> arrowsOf(const Step& step, const scene::Model& machi
   std::vector<glm::dvec3> axes;
   for (const std::size_t part : moved) {
     if (arrows.size() == kMostArrows) break;
-    const overlay::PartShape shape = overlay::shapeOf(machine, part);
+    const overlay::PartShape shape = overlay::alongAxis(overlay::shapeOf(machine, part), step.axis);
     const glm::dvec3 foot = shape.centre - glm::dot(shape.centre, shape.axis) * shape.axis;
     const bool isKnown = std::ranges::any_of(axes, [&](const glm::dvec3& each) {
       return glm::length(each - foot) < 0.5 * shape.radius + 1e-6;
     });
     if (isAlong && isKnown) continue;
     axes.push_back(foot);
-    arrows.push_back({.kind = *kind, .part = part});
+    arrows.push_back({.kind = *kind, .part = part, .axis = step.axis});
   }
   return arrows;
 }
@@ -97,8 +97,8 @@ void drawArrows(hal::Image& picture, std::span<const overlay::Arrow> arrows,
   assert(picture.format().pixelFormat == hal::PixelFormat::kRgb8);
   overlay::LineShapes lines;
   for (const overlay::Arrow& each : arrows) {
-    lines.addArrowOf(each, overlay::shapeOf(machine, each.part), cameraFromModel, camera, pxScale,
-                     0.0);
+    lines.addArrowOf(each, overlay::alongAxis(overlay::shapeOf(machine, each.part), each.axis),
+                     cameraFromModel, camera, pxScale, 0.0);
   }
   cv::Mat pixels(picture.size().height, picture.size().width, CV_8UC3, picture.plane(0).data());
   for (const bool isCasing : {true, false}) {  // so that lines of one arrow have none between them

@@ -37,6 +37,7 @@ enum class ArrowKind { kPull, kPush, kTurn, kUnscrew, kScrew };
 struct Arrow {
   ArrowKind kind = ArrowKind::kPull;
   std::size_t part = 0;
+  glm::dvec3 axis{0.0, 0.0, 1.0};  ///< of the part's own axes, as alongAxis() takes it
   friend bool operator==(const Arrow&, const Arrow&) = default;
 };
 

@@ -289,8 +289,8 @@ void OverlayRenderer::drawMarks(const OverlayFrame& frame) {
       .drawArea(target_, area.low, area.size);
   const double phase = phaseAt(frame.ar->captureTime);
   for (const Arrow& arrow : content_->arrows) {
-    lines_.addArrowOf(arrow, shapes_[arrow.part], frame.machine->cameraFromBody, *frame.camera,
-                      pxScale_, phase);
+    lines_.addArrowOf(arrow, alongAxis(shapes_[arrow.part], arrow.axis),
+                      frame.machine->cameraFromBody, *frame.camera, pxScale_, phase);
   }
   drawing_.drawLines(target_, lines_.all(), pxScale_, state_.trust.opacity);
 }

@@ -34,17 +34,29 @@ PartShape shapeOf(const scene::Model& model, std::size_t index) {
   const glm::dvec3 half = 0.5 * (high - low);
   PartShape shape;
   shape.centre = glm::dvec3(place * glm::dvec4(0.5 * (low + high), 1.0));
-  shape.axis = unit(glm::dvec3(place[2]), {0.0, 0.0, 1.0});
-  shape.side = unit(glm::dvec3(place[0]), {1.0, 0.0, 0.0});
-  shape.halfLength = half.z * glm::length(glm::dvec3(place[2]));
-  shape.radius = std::max(half.x * glm::length(glm::dvec3(place[0])),
-                          half.y * glm::length(glm::dvec3(place[1])));
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec3 column(place[i]);
+    shape.ownAxes[i] = unit(column, glm::dmat3(1.0)[i]);
+    shape.halfSize[i] = half[i] * glm::length(column);
+  }
   for (std::size_t i = 0; i < shape.corners.size(); ++i) {
     const glm::dvec3 corner((i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y,
                             (i & 4) != 0 ? high.z : low.z);
     shape.corners[i] = glm::dvec3(place * glm::dvec4(corner, 1.0));
   }
-  return shape;
+  return alongAxis(shape, {0.0, 0.0, 1.0});
+}
+
+PartShape alongAxis(const PartShape& shape, const glm::dvec3& axis) {
+  const glm::dvec3 size = glm::abs(axis);
+  const int along = size.x > 0.5 ? 0 : size.y > 0.5 ? 1 : 2;
+  const int side = (along + 1) % 3;
+  PartShape turned = shape;
+  turned.axis = axis[along] * shape.ownAxes[along];
+  turned.side = shape.ownAxes[side];
+  turned.halfLength = shape.halfSize[along];
+  turned.radius = std::max(shape.halfSize[side], shape.halfSize[(along + 2) % 3]);
+  return turned;
 }
 
 double PxBox::shared(const PxBox& other) const {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -18,15 +19,22 @@ namespace pleinair::overlay {
 /// model's frame.
 struct PartShape {
   glm::dvec3 centre{0.0};
-  glm::dvec3 axis{0.0, 0.0, 1.0};  ///< the part's own z axis, unit length: screws turn about it
+  /// The part's own z axis, or another one (alongAxis()), unit length: screws turn about it.
+  glm::dvec3 axis{0.0, 0.0, 1.0};
   glm::dvec3 side{1.0, 0.0, 0.0};  ///< across the axis, unit length
   double halfLength = 0.0;         ///< along the axis
   double radius = 0.0;             ///< across it
   std::array<glm::dvec3, 8> corners{};
+  glm::dmat3 ownAxes{1.0};   ///< the part's x, y and z axes, unit length
+  glm::dvec3 halfSize{0.0};  ///< along them
 };
 
 /// The shape of a part; skins and morph targets are not looked at.
 PartShape shapeOf(const scene::Model& model, std::size_t part);
+
+/// The shape with another of the part's own axes in the place of z. `axis`: x, y or z, or the
+/// opposite of one, as a unit vector in the part's frame.
+PartShape alongAxis(const PartShape& shape, const glm::dvec3& axis);
 
 /// A rectangle in pixels: low and high corner.
 struct PxBox {

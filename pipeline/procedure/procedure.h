@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 
 #include "hal/pixel_format.h"
 #include "pipeline/scene/description/model_source.h"
@@ -75,7 +76,7 @@ enum class Motion {
   kPull,
   kPush,
   kTurn,
-  kScrew,   ///< clockwise about the part's own z axis, as seen from its end
+  kScrew,   ///< clockwise about the step's axis, as seen from its end
   kUnscrew  ///< counter-clockwise
 };
 /// How a part is shown in a step, where that is to differ from what follows from the step.
@@ -119,8 +120,10 @@ struct Step {
   std::vector<std::size_t> tools;     ///< indices in Procedure::tools
   std::vector<std::size_t> warnings;  ///< indices in Procedure::warnings
   Motion motion = Motion::kDefault;
+  /// Along or around which its parts move, in the frame of each: x, y or z, or the opposite of one.
+  glm::dvec3 axis{0.0, 0.0, 1.0};
   std::vector<std::pair<std::size_t, PartView>> views;  ///< by part, in the file's order
-  /// An exploded view: parts that are also shown at a distance along their own z axis (metres).
+  /// An exploded view: parts that are also shown at a distance along the axis (metres).
   std::vector<std::pair<std::size_t, double>> apart;
   std::optional<Torque> torque;
   std::optional<StepMovie> movie;

@@ -65,8 +65,9 @@ struct ProcedureReading {
 ///     tools = ["hex_5"]
 ///     warnings = ["hot_oil"]
 ///     motion = "unscrew"             # the arrow: pull, push, turn, screw, unscrew, none
+///     axis = "-y"                    # of its parts' own axes: along or around it they move
 ///     show = { cover = "tint" }      # plain, focus, tint, outline, hidden, ghost
-///     apart = { cover = 0.1 }        # also shown that far (metres) along its own z axis
+///     apart = { cover = 0.1 }        # also shown that far (metres) along the axis
 ///     torque = "20 ± 2 Nm"
 ///     movie = "unscrew.mp4"          # without sound, 15 s at most, again and again
 ///     check = { kind = "value", unit = "mm", min = 0.1, max = 0.3 }

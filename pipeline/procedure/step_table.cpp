@@ -141,6 +141,13 @@ constexpr std::array<config::Choice<PartView>, 6> kViews{{{"plain", PartView::kP
                                                           {"hidden", PartView::kHidden},
                                                           {"ghost", PartView::kGhost}}};
 
+constexpr std::array<config::Choice<glm::dvec3>, 6> kAxes{{{"x", {1.0, 0.0, 0.0}},
+                                                           {"-x", {-1.0, 0.0, 0.0}},
+                                                           {"y", {0.0, 1.0, 0.0}},
+                                                           {"-y", {0.0, -1.0, 0.0}},
+                                                           {"z", {0.0, 0.0, 1.0}},
+                                                           {"-z", {0.0, 0.0, -1.0}}}};
+
 /// Calls `take` with each part that a key of the table names, and the key.
 template <class Take>
 void forNamedParts(const TomlTable& table, const Procedure& procedure, Take take) {
@@ -155,10 +162,11 @@ void forNamedParts(const TomlTable& table, const Procedure& procedure, Take take
   }
 }
 
-/// motion, show = { NODE = "tint", … } and apart = { NODE = 0.08, … }
+/// motion, axis, show = { NODE = "tint", … } and apart = { NODE = 0.08, … }
 void readViews(const TomlTable& table, const Procedure& procedure, Step& step) {
   constexpr double kMostMetres = 100.0;
   if (table.has("motion")) step.motion = table.choice("motion", kMotions);
+  if (table.has("axis")) step.axis = table.choice("axis", kAxes);
   if (const std::optional<TomlTable> show = table.optionalTable("show")) {
     forNamedParts(*show, procedure, [&](const std::string& key, const auto& parts) {
       const PartView view = show->choice(key, kViews);
@@ -318,9 +326,9 @@ bool readStep(const TomlTable& table, Procedure& procedure, std::size_t index,
 }
 
 std::vector<config::ConfigError> unknownStepKeys(const TomlTable& table) {
-  static const std::vector<std::string> kKeys{"apart",  "check", "fits",   "goto",    "id",
-                                              "motion", "movie", "next",   "parts",   "removes",
-                                              "show",   "tools", "torque", "warnings"};
+  static const std::vector<std::string> kKeys{"apart",   "axis",   "check", "fits",   "goto",
+                                              "id",      "motion", "movie", "next",   "parts",
+                                              "removes", "show",   "tools", "torque", "warnings"};
   return unknownKeys(table, kKeys);
 }
 

@@ -1,5 +1,8 @@
 #include "pipeline/overlay/part_shape.h"
 
+#include <algorithm>
+
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "pipeline/scene/description/model_source.h"
@@ -29,6 +32,20 @@ TEST(PartShape, ACouplingsAxisPointsToTheReader) {
   const scene::Model model = gearbox();
   const PartShape coupling = shapeOf(model, partOf(model, "input_coupling"));
   EXPECT_NEAR(coupling.axis.y, -1.0, 1e-9);
+}
+
+TEST(PartShape, AnotherOfItsAxesMayBeTheOneItMovesAlong) {
+  const scene::Model model = gearbox();
+  const PartShape bolt = shapeOf(model, partOf(model, "cover_bolt_1"));
+  const PartShape aside = alongAxis(bolt, {-1.0, 0.0, 0.0});
+  EXPECT_NEAR(glm::dot(aside.axis, bolt.axis), 0.0, 1e-9);
+  EXPECT_NEAR(glm::dot(aside.axis, bolt.side), -1.0, 1e-9);
+  EXPECT_NEAR(glm::dot(aside.axis, aside.side), 0.0, 1e-9);
+  EXPECT_NEAR(aside.halfLength, bolt.radius, 0.15 * bolt.radius) << "it is round";
+  EXPECT_NEAR(aside.radius, std::max(bolt.radius, bolt.halfLength), 0.15 * bolt.radius);
+  EXPECT_EQ(alongAxis(aside, {0.0, 0.0, 1.0}).axis, bolt.axis);
+  EXPECT_EQ(alongAxis(aside, {0.0, 0.0, 1.0}).halfLength, bolt.halfLength);
+  EXPECT_EQ(alongAxis(bolt, {0.0, 0.0, -1.0}).axis, -bolt.axis);
 }
 
 TEST(PartShape, ItsBoxHoldsAllOfItInTheImage) {

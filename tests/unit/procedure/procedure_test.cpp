@@ -180,6 +180,18 @@ TEST(ProcedureMistakes, UnknownKeysAreToldBesideOthers) {
       << "the sixth: step b has a question but no check; next is no unknown key: " << messages;
 }
 
+TEST(Procedure, AStepsPartsMoveAlongTheAxisThatItSays) {
+  const ProcedureReading reading =
+      readSteps("[[step]]\nid = \"a\"\naxis = \"-y\"\n[[step]]\nid = \"b\"\n", {"a", "b"}, "");
+  ASSERT_EQ(messagesOf(reading), "");
+  EXPECT_EQ(reading.procedure.steps[0].axis, glm::dvec3(0.0, -1.0, 0.0));
+  EXPECT_EQ(reading.procedure.steps[1].axis, glm::dvec3(0.0, 0.0, 1.0));
+  const std::string messages =
+      messagesOf(readSteps("[[step]]\nid = \"a\"\naxis = \"up\"\n", {"a"}, ""));
+  EXPECT_THAT(messages, testing::ContainsRegex("p.toml:[0-9]+: step\\[0\\].axis: "));
+  EXPECT_THAT(messages, HasSubstr("-x"));
+}
+
 TEST(Procedure, TellsNodesOfOneNameApart) {
   class Twins : public MemorySources {
    public:

@@ -112,6 +112,46 @@ TEST(StepArrows, AStepThatMovesPartsHasArrowsInItsPicture) {
   EXPECT_EQ(shownOf("as_found"), 0) << "nothing is moved";
 }
 
+TEST(StepArrows, GoAlongTheStepsAxis) {
+  const scene::Model model = scene::gearboxModel({.isClosed = true});
+  procedure::Step step;
+  for (std::size_t i = 0; i < model.parts.size(); ++i) {
+    if (model.parts[i].name == "cover_bolt_1") step.removes = {i};
+  }
+  ASSERT_EQ(step.removes.size(), 1U);
+  const scene::BoundingSphere whole = scene::boundingSphere(model);
+  // The place of the middle of all that is drawn.
+  const auto middle = [&] {
+    hal::Image image({.pixelFormat = hal::PixelFormat::kRgb8, .size = {240, 180}});
+    std::ranges::fill(image.plane(0), std::uint8_t{255});
+    drawArrows(image, arrowsOf(step, model), model,
+               cameraFromModel({.azimuthDeg = 0.0, .elevationDeg = 0.0}, whole, whole),
+               stepCamera(image.size()), 1.0);
+    glm::dvec2 sum(0.0);
+    double count = 0.0;
+    for (int y = 0; y < 180; ++y) {
+      for (int x = 0; x < 240; ++x) {
+        const auto at = static_cast<std::size_t>(3 * (y * 240 + x));
+        if (image.plane(0)[at + 1] != overlay::kReservedRgb[1]) continue;
+        sum += glm::dvec2(x, y);
+        count += 1.0;
+      }
+    }
+    EXPECT_GT(count, 20.0);
+    return sum / std::max(count, 1.0);
+  };
+  const glm::dvec2 up = middle();
+  step.axis = {0.0, 0.0, -1.0};
+  const glm::dvec2 down = middle();
+  step.axis = {1.0, 0.0, 0.0};
+  const glm::dvec2 right = middle();
+  step.axis = {-1.0, 0.0, 0.0};
+  const glm::dvec2 left = middle();
+  EXPECT_GT(down.y, up.y + 5.0) << "y goes down in the image";
+  EXPECT_GT(right.x, left.x + 5.0);
+  EXPECT_LT(up.y, right.y);
+}
+
 TEST(StepTile, IsAsHighAsItsText) {
   const auto reading = procedure::readSteps(
       "[[step]]\nid = \"a\"\n[[step]]\nid = \"b\"\ncheck = \"yes_no\"\ntorque = \"5 Nm\"\n",
