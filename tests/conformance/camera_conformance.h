@@ -32,6 +32,9 @@ struct CameraCase {
   std::uint64_t frames = 0;
   /// Whether its frames come in real time, whatever the clock of the test says.
   bool isLive = false;
+  /// Whether its link drops what a busy machine does not fetch in time, as UDP does: such frames say
+  /// that they are invalid, and are the fewer.
+  bool mayLosePackets = false;
 };
 
 inline void PrintTo(const CameraCase& camera, std::ostream* out) {
@@ -122,15 +125,17 @@ TEST_P(CameraConformance, DeliversWhatWasNegotiated) {
     EXPECT_GT(*format.framePeriod, Duration::zero());
   }
   std::uint64_t taken = 0;
+  std::uint64_t damaged = 0;
   for (; taken < framesToAskFor(); ++taken) {
     const std::optional<CapturedFrame> frame = nextFrame(*camera, format);
     if (!frame) break;
     EXPECT_EQ(frame->image.format, format.frame);
     EXPECT_TRUE(frame->image.isComplete());
-    EXPECT_EQ(frame->health, FrameHealth::kValid);
+    if (frame->health != FrameHealth::kValid) ++damaged;
     EXPECT_NE(frame->lease, nullptr);
   }
   EXPECT_EQ(taken, framesToAskFor());
+  EXPECT_LE(damaged, GetParam().mayLosePackets ? taken / 2 : 0);
 }
 
 TEST_P(CameraConformance, TellsWhereItsFramesLie) {

@@ -130,11 +130,13 @@ constexpr auto kMin = CoherenceGate::Side::kMin;
 /// The limits that its paintings are held to (docs/measuring.md).
 constexpr std::array kGates{
     CoherenceGate{CoherenceMeasure::kEw2, kMax, 0.6, false, GateMotion::kPan},
+    CoherenceGate{CoherenceMeasure::kEw2, kMax, 0.6, false, GateMotion::kOtherKnown},
     CoherenceGate{CoherenceMeasure::kNHw2, kMax, 0.10, false, GateMotion::kPan},
     CoherenceGate{CoherenceMeasure::kNHw2, kMax, 0.20, false, GateMotion::kOtherKnown},
     CoherenceGate{CoherenceMeasure::kS10, kMin, 90, false, GateMotion::kPan},
     CoherenceGate{CoherenceMeasure::kS10, kMin, 80, false, GateMotion::kOtherKnown},
     CoherenceGate{CoherenceMeasure::kPop, kMax, 1, false, GateMotion::kPan},
+    CoherenceGate{CoherenceMeasure::kPop, kMax, 1.5, false, GateMotion::kOtherKnown},
     CoherenceGate{CoherenceMeasure::kXFlk, kMax, 0.5},
     CoherenceGate{CoherenceMeasure::kDep, kMin, 0.75, true},
     CoherenceGate{CoherenceMeasure::kDet, kMin, 0.75},
