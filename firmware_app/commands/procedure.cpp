@@ -40,7 +40,7 @@ std::string sizeText(const AxisBox& box) {
 
 std::vector<std::string> modelFindings(const Procedure& procedure) {
   constexpr double kHugeMetres = 20.0;
-  constexpr double kTinyMetres = 0.005;
+  constexpr double kTinyMetres = 0.02;  // what carries a tag is larger
   const scene::Scene scene = sceneOf(procedure);
   std::vector<std::string> findings = placementFindings(scene);
   const AxisBox box = attachedBox(scene.models.front());

@@ -1,7 +1,6 @@
 #include "firmware_app/overlay/step_content.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -13,7 +12,7 @@
 #include "firmware_app/overlay/model_picture.h"
 #include "firmware_app/overlay/step_movie.h"
 #include "firmware_app/procedure/step_arrows.h"
-#include "pipeline/overlay/part_shape.h"
+#include "firmware_app/procedure/step_ghosts.h"
 #include "pipeline/procedure/notices.h"
 #include "pipeline/procedure/words.h"
 
@@ -49,32 +48,6 @@ PartLook lookOf(procedure::PartView view) {
   return PartLook::kPlain;
 }
 
-overlay::PartShape shapeIn(const Step& step, const scene::Model& machine, std::size_t part) {
-  return overlay::alongAxis(overlay::shapeOf(machine, part), step.axis);
-}
-
-/// How far parts are shown from their place: all of a step alike, so that they keep their order.
-double apartMetres(const Step& step, const scene::Model& machine,
-                   const std::vector<std::size_t>& parts) {
-  const double whole = scene::boundingSphere(machine).radiusMetres;
-  double longest = 0.0;
-  for (const std::size_t each : parts) {
-    longest = std::max(longest, shapeIn(step, machine, each).halfLength);
-  }
-  return std::clamp(2.4 * longest, 0.18 * whole, 0.55 * whole);
-}
-
-void addGhosts(const Step& step, const scene::Model& machine, const std::vector<std::size_t>& parts,
-               bool comesHome, OverlayContent& content) {
-  if (parts.empty()) return;
-  const double apart = apartMetres(step, machine, parts);
-  for (const std::size_t each : parts) {
-    content.ghosts.push_back({.part = each,
-                              .apartMetres = apart * shapeIn(step, machine, each).axis,
-                              .comesHome = comesHome});
-  }
-}
-
 void addParts(const StepShown& shown, const scene::Model& machine, OverlayContent& content) {
   content.looks.assign(machine.parts.size(), PartLook::kPlain);
   for (const std::size_t part : shown.partsOff) content.looks[part] = PartLook::kHidden;
@@ -83,20 +56,8 @@ void addParts(const StepShown& shown, const scene::Model& machine, OverlayConten
   for (const std::size_t part : step.parts) {
     if (content.looks[part] != PartLook::kHidden) content.looks[part] = PartLook::kFocus;
   }
-  for (const auto& [part, view] : step.views) {
-    content.looks[part] = lookOf(view);
-    if (view == procedure::PartView::kGhost) content.ghosts.push_back({.part = part});
-  }
-  for (const auto& [part, metres] : step.apart) {
-    content.ghosts.push_back(
-        {.part = part,
-         .apartMetres = metres / shown.procedure->unitMetres * shapeIn(step, machine, part).axis,
-         .stays = true});
-  }
-  if (step.motion != procedure::Motion::kNone && step.apart.empty()) {
-    addGhosts(step, machine, step.removes, false, content);
-    addGhosts(step, machine, step.fits, true, content);
-  }
+  for (const auto& [part, view] : step.views) content.looks[part] = lookOf(view);
+  content.ghosts = ghostsOf(step, machine, shown.procedure->unitMetres);
   content.arrows = arrowsOf(step, machine);
 }
 

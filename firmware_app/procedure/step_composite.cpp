@@ -17,6 +17,7 @@ const cv::Vec3f kReserved(overlay::kReservedRgb[0], overlay::kReservedRgb[1],
 const cv::Vec3b kOutline(overlay::kCasingRgb[0], overlay::kCasingRgb[1], overlay::kCasingRgb[2]);
 constexpr int kOutlinePx = 3;
 constexpr int kHatchPx = 12;  // from line to line
+constexpr float kGhostCover = 0.45F;
 
 float lumaOf(const cv::Vec3f& rgb) {
   return 0.299F * rgb[0] + 0.587F * rgb[1] + 0.114F * rgb[2];
@@ -35,21 +36,24 @@ cv::Vec3f inFocus(const cv::Vec3f& rgb) {
 
 }  // namespace
 
-hal::Image stepComposite(const hal::Image& shaded, const std::vector<StepPixel>& pixels) {
+hal::Image stepComposite(const hal::Image& shaded, const std::vector<StepPixel>& pixels,
+                         const std::vector<bool>& ghosts) {
   const hal::FrameSize size = shaded.size();
   assert(size.width % 2 == 0 && size.height % 2 == 0);
   assert(pixels.size() ==
          static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+  assert(ghosts.empty() || ghosts.size() == pixels.size());
   cv::Mat3b drawn(size.height, size.width);
   cv::Mat1b focus(size.height, size.width, std::uint8_t{0});
+  cv::Mat1b ghost(size.height, size.width, std::uint8_t{0});
   for (int y = 0; y < size.height; ++y) {
     const auto row = shaded.view().row(0, y);
     for (int x = 0; x < size.width; ++x) {
       const auto at = 3 * static_cast<std::size_t>(x);
       const cv::Vec3f rgb(row[at], row[at + 1], row[at + 2]);
-      const StepPixel pixel =
-          pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
-                 static_cast<std::size_t>(x)];
+      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
+                            static_cast<std::size_t>(x);
+      const StepPixel pixel = pixels[i];
       cv::Vec3f result = rgb;
       if (pixel == StepPixel::kContext) result = pale(rgb);
       if (pixel == StepPixel::kFocus) result = inFocus(rgb);
@@ -58,15 +62,21 @@ hal::Image stepComposite(const hal::Image& shaded, const std::vector<StepPixel>&
         result = isLine ? kReserved : 0.75F * pale(rgb) + 0.25F * kReserved;
       }
       if (pixel == StepPixel::kFocus || pixel == StepPixel::kFocusHidden) focus(y, x) = 255;
+      if (!ghosts.empty() && ghosts[i]) {
+        result = (1.0F - kGhostCover) * result + kGhostCover * kReserved;
+        ghost(y, x) = 255;
+      }
       drawn(y, x) = cv::Vec3b(cv::saturate_cast<std::uint8_t>(result[0]),
                               cv::saturate_cast<std::uint8_t>(result[1]),
                               cv::saturate_cast<std::uint8_t>(result[2]));
     }
   }
-  cv::Mat1b around;
-  const int side = 2 * kOutlinePx + 1;
-  cv::dilate(focus, around, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
-  drawn.setTo(kOutline, around & ~focus);
+  for (const cv::Mat1b& each : {focus, ghost}) {
+    cv::Mat1b around;
+    const int side = 2 * kOutlinePx + 1;
+    cv::dilate(each, around, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
+    drawn.setTo(kOutline, around & ~each);
+  }
   hal::Image image(
       {.pixelFormat = hal::PixelFormat::kRgb8, .size = {size.width / 2, size.height / 2}});
   cv::Mat3b half(size.height / 2, size.width / 2);

@@ -17,8 +17,9 @@ enum class StepPixel : std::uint8_t {
 
 /// Draws a step's picture from the shaded model: other parts pale, the step's parts in the colour
 /// that is reserved for instructions and outlined, and hatched where other parts hide them.
-/// `shaded` is RGB8, `pixels` row by row. Returns RGB8 of half the size, so that edges are smooth.
-/// Precondition: an even size.
-hal::Image stepComposite(const hal::Image& shaded, const std::vector<StepPixel>& pixels);
+/// `shaded` is RGB8, `pixels` row by row; `ghosts`, empty or as many: where a ghost lies over it.
+/// Returns RGB8 of half the size, so that edges are smooth. Precondition: an even size.
+hal::Image stepComposite(const hal::Image& shaded, const std::vector<StepPixel>& pixels,
+                         const std::vector<bool>& ghosts = {});
 
 }  // namespace pleinair::app

@@ -7,10 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include <glm/trigonometric.hpp>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
 
 #include "firmware_app/procedure/step_arrows.h"
 #include "firmware_app/procedure/step_composite.h"
+#include "firmware_app/procedure/step_ghosts.h"
 #include "firmware_app/procedure/step_view.h"
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/gpu/gpu_shaders.h"
@@ -26,6 +28,7 @@ namespace {
 constexpr hal::FrameSize kTrialSize{160, 120};
 constexpr int kContextTag = 0;
 constexpr int kFocusTag = 1;
+constexpr int kGhostTag = 2;
 
 gpu::Texture paperTexture(hal::FrameSize size) {
   gpu::Texture texture(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear);
@@ -35,22 +38,95 @@ gpu::Texture paperTexture(hal::FrameSize size) {
   return texture;
 }
 
-/// What a step's pictures are drawn from: other parts on one tag, the step's parts on another, so
-/// that the latter can be drawn with and without the former.
-scene::Scene sceneOf(const std::optional<scene::Model>& context,
-                     const std::optional<scene::Model>& focus) {
+/// Ghosts that stand still, beside their places.
+struct GhostModel {
+  scene::Model model;
+  glm::dvec3 apartMetres{0.0};  ///< in the model's frame
+
+  scene::BoundingSphere sphere() const {
+    const scene::BoundingSphere home = scene::boundingSphere(model);
+    return {.centre = home.centre + apartMetres, .radiusMetres = home.radiusMetres};
+  }
+};
+
+/// What a step shows, as models: its parts, the others, and ghosts.
+struct StepModels {
+  std::optional<scene::Model> focus, context;
+  std::vector<GhostModel> ghosts;
+};
+
+std::optional<scene::Model> modelOf(const scene::Model& machine,
+                                    const std::vector<std::size_t>& parts) {
+  return parts.empty() ? std::nullopt : std::optional(withParts(machine, parts));
+}
+
+std::vector<GhostModel> ghostModels(const procedure::Step& step,
+                                    const procedure::Procedure& procedure) {
+  std::vector<GhostModel> models;
+  for (const overlay::Ghost& each : ghostsOf(step, *procedure.model, procedure.unitMetres)) {
+    if (isStill(each)) {
+      models.push_back({withParts(*procedure.model, std::array{each.part}), each.apartMetres});
+    }
+  }
+  return models;
+}
+
+/// `off`: parts that are off when the step begins.
+StepModels modelsOf(const procedure::Step& step, const procedure::Procedure& procedure,
+                    const std::set<std::size_t>& off) {
+  using procedure::PartView;
+  std::vector<std::size_t> focus;
+  std::vector<std::size_t> context;
+  for (std::size_t part = 0; part < procedure.model->parts.size(); ++part) {
+    const bool isStepsPart = std::ranges::binary_search(step.parts, part);
+    PartView view = isStepsPart          ? PartView::kFocus
+                    : off.contains(part) ? PartView::kHidden
+                                         : PartView::kPlain;
+    for (const auto& [of, other] : step.views) {
+      if (of == part) view = other;
+    }
+    if (view == PartView::kPlain) context.push_back(part);
+    const bool isMarked =
+        view == PartView::kFocus || view == PartView::kTint || view == PartView::kOutline;
+    if (isMarked) focus.push_back(part);
+  }
+  return {.focus = modelOf(*procedure.model, focus),
+          .context = modelOf(*procedure.model, context),
+          .ghosts = ghostModels(step, procedure)};
+}
+
+/// The sphere around two; nothing may be in either.
+scene::BoundingSphere around(const scene::BoundingSphere& one, const scene::BoundingSphere& other) {
+  const double between = glm::distance(one.centre, other.centre);
+  if (between + other.radiusMetres <= one.radiusMetres) return one;
+  if (between + one.radiusMetres <= other.radiusMetres) return other;
+  const double radius = 0.5 * (between + one.radiusMetres + other.radiusMetres);
+  const glm::dvec3 towards = (other.centre - one.centre) / between;
+  return {.centre = one.centre + (radius - one.radiusMetres) * towards, .radiusMetres = radius};
+}
+
+/// What a step's pictures are drawn from: other parts on one tag, the step's parts and ghosts on
+/// others, so that each can be drawn with and without the rest.
+scene::Scene sceneOf(const StepModels& models) {
   scene::Scene scene;
   scene.light.isEstimated = false;
   scene.light.shadow = 0.0F;
-  for (const int id : {kContextTag, kFocusTag}) scene.tags.push_back({.id = id, .edgeMetres = 0.1});
-  const auto add = [&](const char* name, const scene::Model& model, int tag) {
+  for (const int id : {kContextTag, kFocusTag, kGhostTag}) {
+    scene.tags.push_back({.id = id, .edgeMetres = 0.1});
+  }
+  const auto add = [&](const char* name, const scene::Model& model, int tag,
+                       const glm::dvec3& at = glm::dvec3(0.0)) {
     scene.models.push_back({.name = name,
                             .model = std::make_shared<const scene::Model>(model),
                             .tagId = tag,
+                            .attachFromModel = glm::translate(glm::dmat4(1.0), at),
                             .srgb = glm::vec3(1.0F)});
   };
-  if (context) add("context", *context, kContextTag);
-  if (focus) add("focus", *focus, kFocusTag);
+  if (models.context) add("context", *models.context, kContextTag);
+  if (models.focus) add("focus", *models.focus, kFocusTag);
+  for (const GhostModel& each : models.ghosts) {
+    add("ghost", each.model, kGhostTag, each.apartMetres);
+  }
   return scene;
 }
 
@@ -74,41 +150,57 @@ struct StepPictures::Impl {
   struct Drawing {
     std::optional<scene::ArFrameRenderer> renderer;
     std::uint32_t focusObject = 0;  ///< in ArFrame::ids; 0: none
+    std::uint32_t ghostObject = 0;  ///< the first of all; 0: none
     scene::BoundingSphere focusSphere;
     std::uint64_t sequence = 0;
   };
 
+  enum class Drawn : std::uint8_t { kFocus = 1, kModel, kWithGhosts };  // how many sightings
+
   const scene::ArFrame& compose(Drawing& drawing, const gpu::Texture& ground,
-                                const glm::dmat4& cameraFromAttach, bool withContext) {
+                                const glm::dmat4& cameraFromAttach, Drawn drawn) {
     const glm::dmat4 cameraFromTag = cameraFromAttach * scene::kAttachFromTag;
     const std::array sightings{
         scene::TagSighting{.id = kFocusTag, .cameraFromTag = cameraFromTag},
-        scene::TagSighting{.id = kContextTag, .cameraFromTag = cameraFromTag}};
+        scene::TagSighting{.id = kContextTag, .cameraFromTag = cameraFromTag},
+        scene::TagSighting{.id = kGhostTag, .cameraFromTag = cameraFromTag}};
     const std::span<const scene::TagSighting> seen(sightings);
     return drawing.renderer->compose(ground, stepCamera(ground.size()),
-                                     {.tags = seen.first(withContext ? 2 : 1)}, ++drawing.sequence,
-                                     hal::TimePoint{},
+                                     {.tags = seen.first(static_cast<std::size_t>(drawn))},
+                                     ++drawing.sequence, hal::TimePoint{},
                                      {.surfaces = true, .shading = scene::Shading::kSmooth});
+  }
+
+  /// Calls `take` with the object of each pixel, row by row.
+  template <typename Take>
+  void eachObject(Drawing& drawing, const gpu::Texture& ground, const glm::dmat4& cameraFromAttach,
+                  Drawn drawn, const Take& take) {
+    compose(drawing, ground, cameraFromAttach, drawn);
+    const scene::SurfaceSnapshot snapshot = drawing.renderer->snapshot();
+    for (int y = 0; y < ground.size().height; ++y) {
+      for (int x = 0; x < ground.size().width; ++x) {
+        take(snapshot.id(x, y) >> scene::kTriangleBits);
+      }
+    }
+  }
+
+  /// Where an object, or one after it, is seen. Empty if the step has none.
+  std::vector<bool> maskFrom(Drawing& drawing, const gpu::Texture& ground,
+                             const glm::dmat4& cameraFromAttach, Drawn drawn,
+                             std::uint32_t object) {
+    std::vector<bool> mask;
+    if (object == 0) return mask;
+    eachObject(drawing, ground, cameraFromAttach, drawn,
+               [&](std::uint32_t seen) { mask.push_back(seen >= object); });
+    return mask;
   }
 
   std::vector<StepPixel> pixelsOf(Drawing& drawing, const gpu::Texture& ground,
                                   const glm::dmat4& cameraFromAttach) {
     std::vector<StepPixel> pixels;
-    const auto each = [&](const scene::SurfaceSnapshot& snapshot, const auto& take) {
-      for (int y = 0; y < ground.size().height; ++y) {
-        for (int x = 0; x < ground.size().width; ++x) {
-          take(snapshot.id(x, y) >> scene::kTriangleBits);
-        }
-      }
-    };
-    std::vector<bool> isFocus;
-    if (drawing.focusObject != 0) {
-      compose(drawing, ground, cameraFromAttach, false);
-      each(drawing.renderer->snapshot(),
-           [&](std::uint32_t object) { isFocus.push_back(object == drawing.focusObject); });
-    }
-    compose(drawing, ground, cameraFromAttach, true);
-    each(drawing.renderer->snapshot(), [&](std::uint32_t object) {
+    const std::vector<bool> isFocus =
+        maskFrom(drawing, ground, cameraFromAttach, Drawn::kFocus, drawing.focusObject);
+    eachObject(drawing, ground, cameraFromAttach, Drawn::kModel, [&](std::uint32_t object) {
       const bool covers = !isFocus.empty() && isFocus[pixels.size()];
       if (object == 0) {
         pixels.push_back(StepPixel::kGround);
@@ -141,28 +233,25 @@ struct StepPictures::Impl {
 
   hal::Image draw(std::size_t index, const std::set<std::size_t>& off) {
     const procedure::Step& step = procedure.steps[index];
-    std::vector<std::size_t> others;
-    for (std::size_t part = 0; part < procedure.model->parts.size(); ++part) {
-      const bool isFocus = std::ranges::binary_search(step.parts, part);
-      if (!isFocus && !off.contains(part)) others.push_back(part);
+    const StepModels models = modelsOf(step, procedure, off);
+    Drawing drawing{.focusSphere = models.focus ? scene::boundingSphere(*models.focus) : whole};
+    std::uint32_t objects = models.context ? 1 : 0;
+    if (models.focus) drawing.focusObject = ++objects;
+    if (!models.ghosts.empty()) drawing.ghostObject = ++objects;
+    for (const GhostModel& each : models.ghosts) {
+      drawing.focusSphere = around(drawing.focusSphere, each.sphere());
     }
-    const auto modelOf = [&](const std::vector<std::size_t>& parts) {
-      return parts.empty() ? std::nullopt : std::optional(withParts(*procedure.model, parts));
-    };
-    const std::optional<scene::Model> focus = modelOf(step.parts);
-    const std::optional<scene::Model> surroundings = modelOf(others);
-    Drawing drawing{.focusObject = focus ? (surroundings ? 2U : 1U) : 0U,
-                    .focusSphere = focus ? scene::boundingSphere(*focus) : whole};
-    drawing.renderer.emplace(library, sceneOf(surroundings, focus));
+    drawing.renderer.emplace(library, sceneOf(models));
     const ViewAngles view = bestView(drawing);
     const glm::dmat4 camera =
         cameraFromModel(view, drawing.focusSphere, whole, procedure.uprightFromModel);
     const std::vector<StepPixel> pixels = pixelsOf(drawing, paper, camera);
-    const scene::ArFrame& frame = compose(drawing, paper, camera, true);
+    const scene::ArFrame& frame = compose(drawing, paper, camera, Drawn::kModel);
     readback->submit(*frame.colour);
     hal::Image shaded;
     hal::orThrow(readback->wait(shaded));
-    hal::Image picture = stepComposite(shaded, pixels);
+    hal::Image picture = stepComposite(
+        shaded, pixels, maskFrom(drawing, paper, camera, Drawn::kWithGhosts, drawing.ghostObject));
     drawArrows(picture, arrowsOf(step, *procedure.model), *procedure.model, camera,
                stepCamera(picture.size()), picture.size().width / 480.0);
     return picture;

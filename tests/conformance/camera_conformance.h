@@ -32,8 +32,8 @@ struct CameraCase {
   std::uint64_t frames = 0;
   /// Whether its frames come in real time, whatever the clock of the test says.
   bool isLive = false;
-  /// Whether its link drops what a busy machine does not fetch in time, as UDP does: such frames say
-  /// that they are invalid, and are the fewer.
+  /// Whether its link drops what a busy machine does not fetch in time, as UDP does: such frames
+  /// say that they are invalid, and are the fewer.
   bool mayLosePackets = false;
 };
 

@@ -249,10 +249,9 @@ TEST_F(Everyday, ObeysASignalWithHundredsOfModels) {
     sent = std::chrono::steady_clock::now();
     kill(program, SIGINT);
   };
-  const ProgramRun run =
-      runProgram({"render", "--input", path("in.y4m"), "--output", path("out.y4m"), "--scene",
-                  path("many.toml")},
-                 limits);
+  const ProgramRun run = runProgram({"render", "--input", path("in.y4m"), "--output",
+                                     path("out.y4m"), "--scene", path("many.toml")},
+                                    limits);
   EXPECT_LT(std::chrono::steady_clock::now() - sent, std::chrono::seconds(10));
   EXPECT_EQ(run.status, 128 + SIGINT) << run.error;
 }

@@ -74,5 +74,47 @@ TEST_F(StepPicturesTest, PartsThatAreOffAreNotDrawn) {
   EXPECT_GT(reservedPercent(alone), 0.15) << "the step's part is drawn all the same";
 }
 
+/// The share of pixels in a pale shade of the reserved colour, as of ghosts before the paper or
+/// other parts, in percent.
+double palePercent(const hal::Image& image) {
+  int count = 0;
+  for (int y = 0; y < image.size().height; ++y) {
+    const auto row = image.view().row(0, y);
+    for (std::size_t i = 0; i + 2 < row.size(); i += 3) {
+      const bool isReserved = row[i] > 2 * row[i + 1];
+      const bool isPurple = row[i] > row[i + 1] + 50 && row[i + 2] > row[i + 1] + 40;
+      count += isPurple && !isReserved ? 1 : 0;
+    }
+  }
+  return 100.0 * count / (image.size().width * image.size().height);
+}
+
+TEST_F(StepPicturesTest, AnExplodedViewIsDrawnApart) {
+  const std::size_t index = step("cover_off");
+  procedure::Step& lifted = procedure_.steps[index];
+  const std::size_t cover = lifted.parts.front();
+  StepPictures pictures(procedure_, kSize);
+  const double without = palePercent(pictures.draw(index, {}));
+  lifted.apart = {{cover, 0.1}};
+  EXPECT_GT(palePercent(pictures.draw(index, {})), without + 3.0);
+  lifted.apart = {{cover, 0.0}};
+  EXPECT_LT(palePercent(pictures.draw(index, {})), without + 1.0) << "it lies on the part";
+}
+
+TEST_F(StepPicturesTest, PartsAreShownAsTheStepSays) {
+  const std::size_t index = step("drain");
+  procedure::Step& drained = procedure_.steps[index];
+  drained.motion = procedure::Motion::kNone;
+  const std::size_t cover = procedure_.steps[step("cover_off")].parts.front();
+  StepPictures pictures(procedure_, kSize);
+  const hal::Image usual = pictures.draw(index, {});
+  drained.views = {{cover, procedure::PartView::kTint}};
+  EXPECT_GT(reservedPercent(pictures.draw(index, {})), reservedPercent(usual) + 5.0);
+  drained.views = {{cover, procedure::PartView::kGhost}};
+  EXPECT_GT(palePercent(pictures.draw(index, {})), palePercent(usual) + 5.0);
+  drained.views = {{drained.parts.front(), procedure::PartView::kHidden}};
+  EXPECT_LT(reservedPercent(pictures.draw(index, {})), 0.05);
+}
+
 }  // namespace
 }  // namespace pleinair::app

@@ -39,7 +39,7 @@ std::vector<std::uint64_t> numbered(std::size_t count) {
 }
 
 std::string plotOf(const std::string& name, const std::vector<Moment>& moments) {
-  constexpr double kMostPx = 8.0;
+  static constexpr double kMostPx = 8.0;
   const auto cut = [](double px) {
     return std::isfinite(px) ? std::optional(std::min(px, kMostPx)) : std::nullopt;
   };

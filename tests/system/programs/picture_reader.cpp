@@ -1,12 +1,14 @@
-// Reads a capture device as a video call does (mapped buffers, one reader that stays), and tells when pictures change and, given an
-// input device, when a key of it is pressed. Times are the monotonic clock's, in seconds.
+// Reads a capture device as a video call does (mapped buffers, one reader that stays), and tells
+// when pictures change and, given an input device, when a key of it is pressed. Times are the
+// monotonic clock's, in seconds.
 //
 // usage: picture_reader DEVICE [INPUT]      until SIGTERM
 //
 //   reads WIDTH HEIGHT FOURCC               once, when it streams
 //   pressed SECONDS                         the kernel's time of the event
-//   changed SECONDS LEVELS                  the largest difference from the picture before, over areas of 16 x 16 bytes
-//   ended PICTURES LONGEST_WAIT             at the end; then WIDTH HEIGHT FOURCC of the device
+//   changed SECONDS LEVELS                  the largest difference from the picture before, over
+//   areas of 16 x 16 bytes ended PICTURES LONGEST_WAIT             at the end; then WIDTH HEIGHT
+//   FOURCC of the device
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -114,8 +116,7 @@ class Reader {
     const std::span<const std::uint8_t> memory = memory_[buffer.index];
     Bytes picture(memory.begin(),
                   memory.begin() + std::min<std::size_t>(buffer.bytesused, memory.size()));
-    const double difference =
-        pictures_ == 0 ? 0 : largestDifference(picture, last_, rowBytes_);
+    const double difference = pictures_ == 0 ? 0 : largestDifference(picture, last_, rowBytes_);
     if (difference > kChanged) fmt::print("changed {:.4f} {:.0f}\n", time, difference);
     last_ = std::move(picture);
     ++pictures_;
