@@ -82,7 +82,7 @@ MoverMotion alongDenseMotion(const std::vector<cv::Mat3b>& inputs,
   for (std::size_t t = 0; t < inputs.size(); ++t) {
     std::optional<MotionMap> motion;
     if (t >= kShortLag && cv::countNonZero(movers[t - kShortLag]) > 0) {
-      motion = denseMotion(inputs[t - kShortLag], inputs[t]);
+      motion = standingMotion(inputs[t - kShortLag], inputs[t], movers[t - kShortLag], movers[t]);
     }
     along.add(inUnits(inputs[t]), inUnits(outputs[t]), movers[t], motion ? &*motion : nullptr);
   }

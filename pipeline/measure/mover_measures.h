@@ -54,7 +54,7 @@ struct MoverObservation {
 };
 
 /// Collects a sequence before a standing camera. Movers whose masks are not given are found
-/// (findMovers()), and their motion is estimated (denseMotion()). Keeps all frames: six bytes a
+/// (findMovers()), and their motion is estimated (standingMotion()). Keeps all frames: six bytes a
 /// pixel each, seven with masks, ten while they are evaluated. One thread.
 class MoverMeasures {
  public:

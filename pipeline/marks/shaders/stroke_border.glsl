@@ -12,3 +12,10 @@ uint ownOf(uint border) { return border & kLabelMask; }
 uint otherOf(uint border) { return border >> 13u & kLabelMask; }
 float shareOf(uint border) { return float(border >> 26u & 31u) / 31.0; }
 bool isOpen(uint border) { return border >> 31u != 0u; }
+
+// Whether a mover ends there.
+bool isMoverBorder(uint border) {
+  uint own = ownOf(border);
+  uint other = otherOf(border);
+  return own != other && (isMover(own) || isMover(other));
+}

@@ -298,6 +298,8 @@ void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyP
       .set("wash", static_cast<float>(p.wash))
       .texture("mixtures", mixtures ? *mixtures : *frame.colour)
       .set("isLimited", mixtures ? 1 : 0)
+      .texture("borders", clip != nullptr ? *clip : noIds)
+      .set("hasBorders", clip != nullptr ? 1 : 0)
       .drawFullscreen(canvas->strokes);
   const StrokeLight light{.each = p.bump == StrokeBump::kEach,
                           .relief = static_cast<float>(p.relief),
@@ -313,6 +315,8 @@ void Painterly::State::light(const scene::ArFrame& frame, const PainterlyParamet
   substrate.bind(relief.use(), frame);
   relief.texture("colours", canvas->colour)
       .texture("heights", canvas->height)
+      .texture("borders", clip != nullptr ? *clip : noIds)
+      .set("hasBorders", clip != nullptr ? 1 : 0)
       .texture("movers", layerTextures.labelsOf(moversOf(p)))
       .texture("frame", *frame.colour)
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
@@ -340,6 +344,8 @@ void Painterly::State::showStrokes(const scene::ArFrame& frame, std::size_t view
       .set("wash", 0.35F)
       .texture("mixtures", *frame.colour)
       .set("isLimited", 0)
+      .texture("borders", noIds)
+      .set("hasBorders", 0)
       .drawFullscreen(canvas->strokes);
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
     const float part =

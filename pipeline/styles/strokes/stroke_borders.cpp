@@ -16,6 +16,7 @@ void StrokeBorders::draw(const scene::ArFrame& frame, const marks::MotionLayers*
       .texture("depth", hasDepth ? *frame.depth : *frame.colour)
       .set("depthRange", hasDepth ? glm::vec2(frame.nearMetres, frame.farMetres) : glm::vec2(0.0F))
       .texture("moverShares", layerTextures_.sharesOf(movers))
+      .texture("background", layerTextures_.backgroundOf(movers))
       .texture("picture", *frame.colour)
       .texture("before", before != nullptr ? *before : noForms_)
       .set("hasObjects", frame.hasObjects ? 1 : 0)

@@ -146,5 +146,47 @@ TEST(KnownMotion, AddsUpAConstantVector) {
   EXPECT_NEAR(motion->between(4, 5)->displacement(7, 7)[0], -1.5, 1e-6);
 }
 
+TEST(StandingMotion, BesideAMoverNothingMoves) {
+  // A plain wall, beside which dense motion is the mover's.
+  const cv::Rect before(80, 60, 70, 60);
+  const cv::Rect after = before + cv::Point(6, -2);
+  cv::Mat3b things;
+  strongBlobs(before.size(), 9).convertTo(things, CV_8U, 255.0);
+  const auto seenAt = [&](const cv::Rect& place) {
+    cv::Mat3b picture(kSize, cv::Vec3b(120, 120, 120));
+    things.copyTo(picture(place));
+    return picture;
+  };
+  const auto maskOf = [](const cv::Rect& place) {
+    cv::Mat1b mask(kSize, std::uint8_t{0});
+    mask(place).setTo(255);
+    return mask;
+  };
+  const cv::Mat3b earlier = seenAt(before);
+  const cv::Mat3b later = seenAt(after);
+  const MotionMap standing = standingMotion(earlier, later, maskOf(before), maskOf(after));
+  const MotionMap dense = denseMotion(earlier, later);
+  const cv::Rect left(before.x - 8, before.y + 10, 4, 40);  // where the mover is not in either
+  int moving = 0;
+  for (int y = left.y; y < left.br().y; ++y) {
+    for (int x = left.x; x < left.br().x; ++x) {
+      EXPECT_NE(standing.valid(y, x), 0) << x << " " << y;
+      EXPECT_EQ(standing.displacement(y, x), cv::Vec2f());
+      moving += cv::norm(dense.displacement(y, x)) > 0.5 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(moving, left.area() / 2) << "the control: there is something to be told";
+  const cv::Point covered(after.br().x - 2, before.y + 30);
+  EXPECT_EQ(standing.valid(covered), 0);
+  int right = 0;
+  const cv::Rect inside(before.x + 15, before.y + 15, 40, 30);
+  for (int y = inside.y; y < inside.br().y; ++y) {
+    for (int x = inside.x; x < inside.br().x; ++x) {
+      right += cv::norm(standing.displacement(y, x) - cv::Vec2f(6, -2)) < 0.5 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(right, 9 * inside.area() / 10);
+}
+
 }  // namespace
 }  // namespace pleinair::measure

@@ -31,7 +31,7 @@ void main() {
   float row = (float(variant) + 0.5 + 0.3 * across) / kVariants;
   cover *= mix(1.0, texture(brushes, vec2(onward, row)).r, grain);
 #ifdef CLIPPED
-  cover *= within();
+  cover *= within().smoothly;
 #endif
   cover *= paint.a;
   ink = vec4(paint.rgb * cover, cover);

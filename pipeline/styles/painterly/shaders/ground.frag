@@ -2,12 +2,14 @@
 //          get a fuller one of their own colours: what their strokes leave bare differs with each
 //          step.
 // Inputs:  paint: the image, much reduced (LINEAR); moverPaint: movers, less reduced,
-//          premultiplied; mover_labels.glsl's; pixelsOfFull; ground: sRGB-coded; wash: its share;
+//          premultiplied; mover_labels.glsl's; borders (borders.frag) if hasBorders; pixelsOfFull; ground: sRGB-coded; wash: its share;
 //          mixture.glsl's if isLimited.
 // Outputs: 0: sRGB-coded colour; 1: no height.
 // Precision: mediump suffices, except for places.
 #include "pipeline/marks/shaders/mover_labels.glsl"
 #include "pipeline/marks/shaders/mixture.glsl"
+#include "pipeline/marks/shaders/stroke_border.glsl"
+uniform highp usampler2D borders;
 uniform sampler2D paint;
 uniform sampler2D moverPaint;
 uniform vec2 size;
@@ -15,16 +17,26 @@ uniform vec2 pixelsOfFull;
 uniform vec3 ground;
 uniform float wash;
 uniform bool isLimited;
+uniform bool hasBorders;
 layout(location = 0) out vec4 colour;
 layout(location = 1) out vec4 height;
 
 const float kMostBare = 0.06;  // of the ground, under a mover
+const float kInside = 3.0;     // px
 
 void main() {
   vec3 seen = texture(paint, gl_FragCoord.xy / size).rgb;
   float moving = movingAt(gl_FragCoord.xy / pixelsOfFull);
   float bare = 1.0 - wash;
-  // A loop that no invocation enters costs nothing on software renderers.
+  // At a mover's border all or nothing, as strokes (stroke_clip.glsl): as farther inside. A loop that
+  // no invocation enters costs nothing on software renderers.
+  uint border = hasBorders ? texelFetch(borders, ivec2(gl_FragCoord.xy), 0).r : 0u;
+  if (isMoverBorder(border) && !isMover(ownOf(border))) moving = 0.0;
+  for (int i = isMoverBorder(border) && isMover(ownOf(border)) ? 0 : 4; i < 4; ++i) {
+    float along = i < 2 ? -kInside : kInside;
+    vec2 aside = i % 2 == 0 ? vec2(along, 0.0) : vec2(0.0, along);
+    moving = max(moving, movingAt(gl_FragCoord.xy / pixelsOfFull + aside));
+  }
   for (int i = moving > 0.0 ? 0 : 1; i < 1; ++i) {
     vec4 mover = texture(moverPaint, gl_FragCoord.xy / size);
     if (mover.a > 0.0) seen = mix(seen, mover.rgb / mover.a, moving);

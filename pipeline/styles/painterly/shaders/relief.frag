@@ -1,6 +1,6 @@
 // Purpose: light on the relief of the paint and its canvas, once per pixel; content in focus stays
 //          sharp.
-// Inputs:  colours, heights (stroke_mark.glsl); ids (ArFrame) if hasObjects; substrate.glsl's: the
+// Inputs:  colours, heights (stroke_mark.glsl); mover_border.glsl's, if hasBorders; ids (ArFrame) if hasObjects; substrate.glsl's: the
 //          canvas; frame, normalFocus if hasFocus; relief, gloss, weave: the weight of each, the last
 //          one not on models; tooth:
 //          how much the substrate's grain keeps paint from its hollows, where the washed ground
@@ -11,6 +11,7 @@
 #include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/marks/shaders/mover_labels.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
+#include "pipeline/styles/strokes/shaders/mover_border.glsl"
 #include "pipeline/styles/strokes/shaders/paint_light.glsl"
 #include "pipeline/styles/substrate/shaders/substrate.glsl"
 uniform sampler2D colours;
@@ -19,6 +20,7 @@ uniform sampler2D frame;
 uniform sampler2D normalFocus;
 uniform highp usampler2D ids;
 uniform bool hasObjects;
+uniform bool hasBorders;
 uniform bool hasFocus;
 uniform float relief;
 uniform float gloss;
@@ -58,6 +60,8 @@ void main() {
   bool isModel = hasObjects && isVirtual(objectOf(texelFetch(ids, p, 0).r));
   float onMover = min(kCarriedRelief, kMoverRelief / max(relief, 1e-3));
   slope *= isModel ? kCarriedRelief : mix(1.0, onMover, moving);
+  uint border = hasBorders ? texelFetch(borders, p, 0).r : 0u;
+  rgb = mixedAtBorder(p, border, rgb, colours);
   vec3 normal = normalize(vec3(-slope, 1.0));
   float lit = litBy(normal);
   vec4 substrate = sheetAt(onPaper(gl_FragCoord.xy), 1.0);

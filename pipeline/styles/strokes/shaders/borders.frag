@@ -21,7 +21,9 @@ uniform vec4 objectBounds;
 uniform bool isHeld;
 uniform vec2 size;
 uniform vec2 pixelsOfFull;
+#include "pipeline/marks/shaders/colour_difference.glsl"
 #include "pipeline/marks/shaders/mover_places.glsl"
+#include "pipeline/marks/shaders/mover_matte.glsl"
 #include "pipeline/marks/shaders/segments.glsl"
 layout(location = 0) out uint border;
 
@@ -29,6 +31,14 @@ vec3 sharesOf(ivec2 p) { return sharesAt((vec2(p) + 0.5) / pixelsOfFull); }
 
 uint labelOfShares(vec3 shares) {
   return sumOf(shares) > 0.5 ? labelOfMover(numberOf(shares)) : 0u;
+}
+
+// Whether labels of movers end within some two px; `movers`: the shares of the pixel.
+bool isNearBorder(ivec2 p, vec3 movers) {
+  vec3 before = sharesOf(p - 2);
+  vec3 after = sharesOf(p + 2);
+  bool isPlain = sumOf(movers) == 0.0 || max(movers.r, max(movers.g, movers.b)) == 1.0;
+  return !isPlain || before != movers || after != movers;
 }
 
 // Whether objects are seen at the pixel or beside it.
@@ -126,6 +136,16 @@ void main() {
     } else if (other == own || label > other) {
       other = label;
     }
+  }
+  bool mayHaveMatte = !around.hasObjects && pixelsOfFull.x > 0.99 && isNearBorder(p, movers);
+  Matte matte =
+      matteAt((vec2(p) + 0.5) / pixelsOfFull, mayHaveMatte, picture, size / pixelsOfFull);
+  if (matte.number != 0) {
+    bool isOwn = matte.share > 0.5;
+    own = isOwn ? labelOfMover(matte.number) : 0u;
+    share = isOwn ? matte.share : 1.0 - matte.share;
+    other = share > 0.98 ? own : isOwn ? 0u : labelOfMover(matte.number);
+    isUniform = other == own;
   }
   float near = 0.0;
   uint across = around.hasObjects ? acrossJoint(p, last, near) : 0u;

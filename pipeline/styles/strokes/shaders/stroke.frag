@@ -19,8 +19,11 @@ void main() {
 #ifdef BUMPED
   rgb = bumped(rgb, place);
 #endif
+  float body = cover;
 #ifdef CLIPPED
-  cover = cover * within();
+  Within share = within();
+  cover *= share.toBeMixed;
+  body *= share.smoothly;
 #endif
-  leave(rgb, texel.g, cover);
+  leave(rgb, texel.g, cover, body);
 }

@@ -62,10 +62,11 @@ vec2 markAt(vec2 place) {
 // Less pigment on the sides of ridges, more in the shade of furrows: the colour follows the height.
 vec3 pigment(float thick) { return paint.rgb * (0.94 + 0.12 * thick); }
 
-void leave(vec3 rgb, float thick, float cover) {
+// `cover`: of the colour, `body`: of the height.
+void leave(vec3 rgb, float thick, float cover, float body) {
   colour = vec4(rgb * cover, cover);
   // At its ends the paint fades into the paint below; a step would be a seam across the stroke.
   float fromEnds = aspect * min(brush.x, 1.0 - brush.x);
-  float body = cover * smoothstep(0.0, kThinEnd, fromEnds);
+  body *= smoothstep(0.0, kThinEnd, fromEnds);
   height = vec4(thick * body, body, 0.0, body);
 }
