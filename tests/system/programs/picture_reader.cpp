@@ -114,8 +114,8 @@ class Reader {
     longestWait_ = std::max(longestWait_, time - waitsSince_);
     waitsSince_ = time;
     const std::span<const std::uint8_t> memory = memory_[buffer.index];
-    Bytes picture(memory.begin(),
-                  memory.begin() + std::min<std::size_t>(buffer.bytesused, memory.size()));
+    const auto seen = memory.first(std::min<std::size_t>(buffer.bytesused, memory.size()));
+    Bytes picture(seen.begin(), seen.end());
     const double difference = pictures_ == 0 ? 0 : largestDifference(picture, last_, rowBytes_);
     if (difference > kChanged) fmt::print("changed {:.4f} {:.0f}\n", time, difference);
     last_ = std::move(picture);
@@ -175,7 +175,7 @@ void read(const char* device, const char* input) {
   sigset_t ending;
   ::sigemptyset(&ending);
   ::sigaddset(&ending, SIGTERM);
-  ::sigprocmask(SIG_BLOCK, &ending, nullptr);
+  ::pthread_sigmask(SIG_BLOCK, &ending, nullptr);
   const int signals = ::signalfd(-1, &ending, 0);
   Reader reader(device);
   std::array<pollfd, 3> waited{

@@ -175,8 +175,11 @@ TEST(Gates, PassWhatIsWithinAndStopTheRest) {
   bad.ew2 = 0.61;
   bad.popPercent = 1.1;
   EXPECT_THAT(failed("painterly", MotionKind::kPan, bad), ElementsAre("EW2 ", "POP "));
-  EXPECT_THAT(failed("painterly", MotionKind::kOther, bad), IsEmpty());
+  EXPECT_THAT(failed("painterly", MotionKind::kOther, bad), ElementsAre("EW2 "));
   EXPECT_THAT(failed("watercolor", MotionKind::kPan, bad), IsEmpty());
+  bad = good();
+  bad.popPercent = 1.6;
+  EXPECT_THAT(failed("painterly", MotionKind::kOther, bad), ElementsAre("POP "));
   bad = good();
   bad.nHw2 = 0.15;
   bad.s10Percent = 85;
