@@ -169,7 +169,8 @@ std::string provisioningText(const Provisioned& provisioned, bool hasOther) {
   }
   if (provisioned.siteFile || hasOther) return {};
   return "Not set up yet: this is how it paints by itself.\n"
-         "Name a USB stick (FAT) PLEINAIR and put a file site.toml on it, such as\n"
+         "Put a file site.toml on the FAT partition PLEINAIR: on a machine image that of\n"
+         "its own disk, elsewhere a USB stick of that name. Such as\n"
          "  [painting]\n"
          "  look = \"wet_in_wet\"\n"
          "An empty file puts this text away. More: appliance.md, \"Setting it up\"";
