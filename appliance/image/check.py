@@ -112,9 +112,17 @@ class Screen:
     def colours(self):
         return len({self.pixels[i:i + 3] for i in range(0, len(self.pixels) - 2, 33)})
 
+    def is_off(self):
+        """Whether QEMU says so: one line in the middle of a black picture, where a console begins at the top."""
+        if (self.width, self.height) != (640, 480):
+            return False
+        row = 3 * self.width
+        above, below = self.pixels[:224 * row], self.pixels[256 * row:]
+        return not above.strip(b"\0") and not below.strip(b"\0")
+
     def kind(self):
         """black, picture, or text."""
-        if not self.pixels.strip(b"\0"):
+        if not self.pixels.strip(b"\0") or self.is_off():
             return "black"
         return "picture" if self.colours() >= LEAST_COLOURS else "text"
 

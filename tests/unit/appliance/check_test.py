@@ -32,6 +32,13 @@ class Screens(unittest.TestCase):
         self.assertEqual(self.screen(64, 48, lambda x, y: (255 * (x % 9 == 0 and y < 9),) * 3).kind(), "text")
         self.assertEqual(self.screen(64, 48, lambda x, y: (4 * x, 5 * y, x + y)).kind(), "picture")
 
+    def test_a_screen_that_is_off_is_black(self):
+        def line(top):  # QEMU's "Display output is not active" is such a line, 16 rows high, in the middle
+            return lambda x, y: (170 * (200 < x < 440 and top <= y < top + 16 and x % 3 == 0),) * 3
+        self.assertEqual(self.screen(640, 480, line(232)).kind(), "black")
+        self.assertEqual(self.screen(640, 480, line(0)).kind(), "text")
+        self.assertEqual(self.screen(800, 480, line(232)).kind(), "text")
+
     def phases(self, mode_at, moments):
         """Whether the firmware is done at each moment, where its own mode comes at `mode_at`."""
         firmware = check.Firmware()
