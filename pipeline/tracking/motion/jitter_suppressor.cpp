@@ -1,6 +1,7 @@
 #include "pipeline/tracking/motion/jitter_suppressor.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -25,6 +26,11 @@ constexpr double kMinErrorPx = 0.005;
 constexpr double kCalibrationPace = 0.15;  // weight of one frame
 constexpr double kMinCalibration = 0.7;
 constexpr double kMaxCalibration = 3.0;
+
+/// A feature that has moved by less may be at rest.
+double bandOf(const PointPair& pair, double scale) {
+  return std::max(kBandPx * scale, kFeatureErrors * pair.errorPx);
+}
 
 }  // namespace
 
@@ -88,6 +94,41 @@ void JitterSuppressor::releasePicture(const HomographyFit& fit, hal::FrameSize s
   }
 }
 
+/// A homography has room for the motion of a large thing that moves before a camera that stands,
+/// and even for a part of it: half of the image at rest, half of it moving looks like a shear.
+/// Where the fit contradicts what is at rest in more places than it hits, and most of the image is
+/// at rest, the camera stands. Places count and not features: a plain wall has few of them, a
+/// jacket many.
+bool JitterSuppressor::isMoversFit(const HomographyFit& fit, hal::FrameSize size, double scale) {
+  constexpr std::size_t kLeastPlaces = 4;
+  constexpr int kColumns = 8;
+  constexpr int kRows = 6;
+  // While the camera has stood until now, half as much will do.
+  const std::size_t weight = isHeld_ ? 2 : 1;
+  using Places = std::bitset<kColumns * kRows>;
+  Places seen;
+  Places atRest;
+  Places contradicted;  // at rest, although the fit moves them
+  Places hit;           // moved as the fit moves them
+  for (const PointPair& pair : pairs_) {
+    const int column =
+        std::clamp(static_cast<int>(kColumns * pair.current.x / size.width), 0, kColumns - 1);
+    const int row =
+        std::clamp(static_cast<int>(kRows * pair.current.y / size.height), 0, kRows - 1);
+    const auto place = static_cast<std::size_t>(kColumns * row + column);
+    const double bandPx = bandOf(pair, scale);
+    const glm::dvec2 fitted = movedBy(fit.currentFromPrevious, pair.previous);
+    const bool isAtRest = glm::distance(pair.previous, pair.current) <= bandPx;
+    seen.set(place);
+    if (isAtRest) atRest.set(place);
+    if (glm::distance(fitted, pair.previous) <= bandPx) continue;
+    if (isAtRest) contradicted.set(place);
+    if (glm::distance(fitted, pair.current) <= bandPx) hit.set(place);
+  }
+  return contradicted.count() >= kLeastPlaces && weight * contradicted.count() >= hit.count() &&
+         2 * atRest.count() >= seen.count();
+}
+
 /// Predictions assume white noise; a compressed movie's noise is not white. The features that
 /// follow the image best show by how much predictions are wrong, even where the scene is no plane.
 void JitterSuppressor::calibrate(const HomographyFit& fit) {
@@ -119,9 +160,15 @@ void JitterSuppressor::movePicture(hal::FrameSize size, double scale) {
   }
   picture_.reset();
   isSettling_ = false;
-  const auto fit = fitter_.fit(pairs_, size);
+  auto fit = fitter_.fit(pairs_, size);
   if (!fit) return;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) reported_[pairOf_[i]].agrees = fitter_.agrees(i);
+  const bool stands = isMoversFit(*fit, size, scale);
+  if (stands) fit->currentFromPrevious = glm::dmat3(1.0);
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const bool isAtRest =
+        glm::distance(pairs_[i].previous, pairs_[i].current) <= bandOf(pairs_[i], scale);
+    reported_[pairOf_[i]].agrees = stands ? isAtRest : fitter_.agrees(i);
+  }
   calibrate(*fit);
   if (isHeld_) {
     suppressJitter(*fit, size, scale);

@@ -45,6 +45,7 @@ class JitterSuppressor {
   };
 
   void match(std::span<const SeenFeature> seen);
+  bool isMoversFit(const HomographyFit& fit, hal::FrameSize size, double scale);
   void calibrate(const HomographyFit& fit);
   void movePicture(hal::FrameSize size, double scale);
   void suppressJitter(const HomographyFit& fit, hal::FrameSize size, double scale);

@@ -176,6 +176,37 @@ TEST(ImageMotion, TwoLayersMoveApart) {
   }
 }
 
+/// Somebody walks through a room with few corners, slowly enough for a homography to bend to both.
+TEST(ImageMotion, ALargeThingThatMovesBeforeAPlainWallIsNotTheCamera) {
+  constexpr int kWide = 110;
+  constexpr int kTop = 60;
+  Watch watch;
+  const std::vector<glm::ivec2> posters{{20, 20},  {95, 10},   {170, 20}, {270, 14},  {30, 100},
+                                        {140, 90}, {250, 100}, {90, 170}, {180, 160}, {270, 180}};
+  glm::dmat3 thingFromFrame(1.0);
+  for (int i = 0; i < 240; ++i) {
+    const double turn = 0.0015 * std::cos(0.1 * i);
+    thingFromFrame = thingFromFrame *
+                     glm::inverse(currentFromPrevious({.turn = turn, .shift = {1.5, 0.0}}, kSize));
+    WallView wall{.size = kSize, .noiseSigma = 1.0, .noiseSeed = 1U + static_cast<unsigned>(i)};
+    wall.contrast = 0.05;
+    hal::Image image = support::renderWall(wall);
+    wall.contrast = 1.0;
+    for (const glm::ivec2& at : posters) support::overlayWall(image, wall, at, at + 36);
+    WallView thing = wall;
+    thing.wallFromFrame = thingFromFrame;
+    thing.wallSeed = 5;
+    const int left = -kWide + 3 * i / 2;
+    const glm::ivec2 from(std::max(left, 0), kTop);
+    const glm::ivec2 to(std::min(left + kWide, kSize.width), kSize.height);
+    if (to.x > from.x) support::overlayWall(image, thing, from, to);
+    const ImageMotion& motion = watch.see(image);
+    if (i == 0) continue;
+    ASSERT_TRUE(motion.picture) << i;
+    EXPECT_EQ(motion.picture->currentFromPrevious, glm::dmat3(1.0)) << i;
+  }
+}
+
 TEST(ImageMotion, ACoveredLensIsNoCutAndWhatItShowedIsFoundAgain) {
   Watch watch;
   const glm::dmat3 step = currentFromPrevious({.shift = {0.5, 0.0}}, kSize);
