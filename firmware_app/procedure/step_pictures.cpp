@@ -49,7 +49,7 @@ struct GhostModel {
   }
 };
 
-/// What a step shows, as models: its parts, the others, and ghosts.
+/// The models that a step shows: its parts, the others, and ghosts.
 struct StepModels {
   std::optional<scene::Model> focus, context;
   std::vector<GhostModel> ghosts;
@@ -105,8 +105,8 @@ scene::BoundingSphere around(const scene::BoundingSphere& one, const scene::Boun
   return {.centre = one.centre + (radius - one.radiusMetres) * towards, .radiusMetres = radius};
 }
 
-/// What a step's pictures are drawn from: other parts on one tag, the step's parts and ghosts on
-/// others, so that each can be drawn with and without the rest.
+/// The scene that a step's pictures are drawn from: other parts on one tag, the step's parts and
+/// ghosts on others, so that each can be drawn with and without the rest.
 scene::Scene sceneOf(const StepModels& models) {
   scene::Scene scene;
   scene.light.isEstimated = false;

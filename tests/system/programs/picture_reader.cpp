@@ -4,11 +4,13 @@
 //
 // usage: picture_reader DEVICE [INPUT]      until SIGTERM
 //
-//   reads WIDTH HEIGHT FOURCC               once, when it streams
-//   pressed SECONDS                         the kernel's time of the event
-//   changed SECONDS LEVELS                  the largest difference from the picture before, over
-//   areas of 16 x 16 bytes ended PICTURES LONGEST_WAIT             at the end; then WIDTH HEIGHT
-//   FOURCC of the device
+//   reads WIDTH HEIGHT FOURCC         once, when it streams
+//
+//   pressed SECONDS                   the kernel's time of the event
+//
+//   changed SECONDS LEVELS            the largest mean difference of 16 x 16 bytes, from before
+//
+//   ended PICTURES LONGEST_WAIT WIDTH HEIGHT FOURCC
 #include <algorithm>
 #include <array>
 #include <cerrno>
