@@ -12,6 +12,7 @@ bool isGround(uint label) { return label == 0u || label >= kSegmentLabel; }
 // Whether a label is a model's.
 bool isPatch(uint label) { return label != 0u && label < kSegmentLabel - 3u; }
 
+// Whether a label is a mover's.
 bool isMover(uint label) { return label < kSegmentLabel && label >= kSegmentLabel - 3u; }
 
 // Whether a label is a model's or a mover's: what does not go with the camera image.

@@ -1,6 +1,7 @@
 // Purpose: light on the relief of the paint and its canvas, once per pixel; content in focus stays
 //          sharp.
-// Inputs:  colours, heights (stroke_mark.glsl); mover_border.glsl's, if hasBorders; ids (ArFrame) if hasObjects; substrate.glsl's: the
+// Inputs:  colours, heights (stroke_mark.glsl); mover_border.glsl's, if hasBorders;
+//          ids (ArFrame) if hasObjects; substrate.glsl's: the
 //          canvas; frame, normalFocus if hasFocus; relief, gloss, weave: the weight of each, the last
 //          one not on models; tooth:
 //          how much the substrate's grain keeps paint from its hollows, where the washed ground
