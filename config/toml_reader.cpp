@@ -5,6 +5,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <regex>
 #include <system_error>
 #include <utility>
 
@@ -326,6 +327,26 @@ ConfigError TomlTable::error(std::string_view key, std::string problem, std::str
                       .allowed = std::move(allowed)});
 }
 
+namespace {
+
+std::string_view lineNumbered(std::string_view text, int line) {
+  for (; line > 1 && !text.empty(); --line) {
+    const std::size_t end = text.find('\n');
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  return text.substr(0, text.find('\n'));
+}
+
+/// "= 0,1": the comma of most languages.
+bool hasDecimalComma(std::string_view line) {
+  static const std::regex kPattern(R"(=\s*[-+]?\d{1,10},\d)");
+  constexpr std::size_t kLongest = 1000;  // std::regex recurses
+  line = line.substr(0, kLongest);
+  return std::regex_search(line.begin(), line.end(), kPattern);
+}
+
+}  // namespace
+
 TomlDocument TomlDocument::parseText(std::string_view text, std::string name,
                                      const std::filesystem::path& directory) {
   if (text.size() > kMaxBytes) {
@@ -342,9 +363,13 @@ TomlDocument TomlDocument::parseText(std::string_view text, std::string name,
   try {
     state->document = std::make_shared<const toml::table>(toml::parse(text, name));
   } catch (const toml::parse_error& error) {
+    const int line = lineOfRegion(error.source());
     throw ConfigError({.file = std::move(name),
-                       .line = lineOfRegion(error.source()),
-                       .problem = fmt::format("not TOML: {}", error.description())});
+                       .line = line,
+                       .problem = fmt::format("not TOML: {}", error.description()),
+                       .allowed = hasDecimalComma(lineNumbered(text, line))
+                                      ? "a decimal point: 0.1, not 0,1"
+                                      : ""});
   }
   state->table = state->document.get();
   state->file = std::move(name);

@@ -14,6 +14,7 @@
 #include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/scene/scene_check.h"
 #include "pipeline/procedure/procedure_file.h"
+#include "pipeline/procedure/step_graph.h"
 
 namespace pleinair::app {
 namespace {
@@ -59,38 +60,47 @@ std::vector<std::string> modelFindings(const Procedure& procedure) {
   return findings;
 }
 
-/// Tools and warnings that no step names.
-std::vector<std::string> unusedNames(const Procedure& procedure) {
-  std::vector<std::string> findings;
-  const auto isUsed = [&](auto member, std::size_t index) {
-    return std::ranges::any_of(procedure.steps, [&](const procedure::Step& step) {
-      return std::ranges::find(step.*member, index) != (step.*member).end();
-    });
-  };
-  for (std::size_t i = 0; i < procedure.tools.size(); ++i) {
-    if (isUsed(&procedure::Step::tools, i)) continue;
-    findings.push_back(fmt::format("tools.{}: no step needs it", procedure.tools[i].id));
+/// What is likely wrong with the model.
+void warnOfModel(const Procedure& procedure, const std::string& file) {
+  for (const std::string& finding : modelFindings(procedure)) {
+    spdlog::warn("{}: model: {}", file, finding);
   }
-  for (std::size_t i = 0; i < procedure.warnings.size(); ++i) {
-    if (isUsed(&procedure::Step::warnings, i)) continue;
-    findings.push_back(fmt::format("warnings.{}: no step gives it", procedure.warnings[i].id));
-  }
-  return findings;
 }
 
-/// "backlash: high -> overhaul"
+/// "gap: ok -> lash, low stays here, high -> end": where a check's outcomes lead.
 std::vector<std::string> branchLines(const Procedure& procedure) {
+  const auto nameOfStep = [&](std::size_t step) {
+    return step == procedure::kEnd ? std::string("end") : procedure.steps[step].id;
+  };
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < procedure.steps.size(); ++i) {
     const procedure::Step& step = procedure.steps[i];
-    for (const auto& [outcome, next] : step.next) {
-      const std::size_t following = i + 1 < procedure.steps.size() ? i + 1 : procedure::kEnd;
-      if (next == following) continue;
-      lines.push_back(fmt::format("{}: {} -> {}", step.id, nameOf(outcome),
-                                  next == procedure::kEnd ? "end" : procedure.steps[next].id));
+    const std::size_t following = i + 1 < procedure.steps.size() ? i + 1 : procedure::kEnd;
+    std::vector<std::string> ways;
+    for (const procedure::Outcome outcome : procedure::outcomesOf(step.checkKind())) {
+      const auto next = step.next.find(outcome);
+      const bool stays = next == step.next.end() || next->second == i;
+      if (!step.check && !stays && next->second == following) continue;
+      ways.push_back(stays ? fmt::format("{} stays here", nameOf(outcome))
+                           : fmt::format("{} -> {}", nameOf(outcome), nameOfStep(next->second)));
     }
+    if (!ways.empty()) lines.push_back(fmt::format("{}: {}", step.id, fmt::join(ways, ", ")));
   }
   return lines;
+}
+
+/// "  off at the end: cover; on some ways: seal\n"; empty where all parts are on again.
+std::string leftOffLine(const Procedure& procedure) {
+  const procedure::PartsLeftOff left = procedure::partsLeftOff(procedure);
+  const auto namesOf = [&](const std::vector<std::size_t>& parts) {
+    std::vector<std::string> names;
+    for (const std::size_t part : parts) names.push_back(procedure.model->parts[part].name);
+    return fmt::format("{}", fmt::join(names, ", "));
+  };
+  std::vector<std::string> lists;
+  if (!left.onEveryWay.empty()) lists.push_back(namesOf(left.onEveryWay));
+  if (!left.onSomeWays.empty()) lists.push_back("on some ways: " + namesOf(left.onSomeWays));
+  return lists.empty() ? "" : fmt::format("  off at the end: {}\n", fmt::join(lists, "; "));
 }
 
 /// The names that steps can use, each once; nothing where the model cannot be read.
@@ -111,9 +121,13 @@ std::string nodeLines(const Procedure& procedure) {
 int checkProcedure(const ProcedureCheckOptions& options) {
   const procedure::ProcedureReading reading = procedure::readProcedureFolder(options.folder);
   if (options.listsNodes) writeText(stdout, nodeLines(reading.procedure));
-  for (const config::ConfigError& fault : reading.faults) printError(fault.what());
-  if (!reading.faults.empty()) return static_cast<int>(ExitStatus::kUsage);
   const Procedure& procedure = reading.procedure;
+  const std::string file = (options.folder / procedure::kProcedureFile).string();
+  for (const config::ConfigError& fault : reading.faults) printError(fault.what());
+  if (!reading.faults.empty()) {
+    if (procedure.model) warnOfModel(procedure, file);
+    return static_cast<int>(ExitStatus::kUsage);
+  }
   const AxisBox box = attachedBox(sceneOf(procedure).models.front());
   std::string text = fmt::format("{} {}: {} steps in {}\n", procedure.name, procedure.version,
                                  procedure.steps.size(), fmt::join(procedure.languages, ", "));
@@ -121,11 +135,12 @@ int checkProcedure(const ProcedureCheckOptions& options) {
   text += fmt::format("  files: {}\n", fmt::join(procedure.files, ", "));
   text += fmt::format("  hash: {}\n", procedure.hash);
   for (const std::string& line : branchLines(procedure)) text += "  " + line + "\n";
+  text += leftOffLine(procedure);
   writeText(stdout, text);
-  std::vector<std::string> findings = modelFindings(procedure);
-  for (std::string& each : unusedNames(procedure)) findings.push_back(std::move(each));
-  for (const std::string& finding : findings) spdlog::warn("{}", finding);
-  return findings.empty() ? 0 : static_cast<int>(ExitStatus::kInternal);
+  for (const config::ConfigError& each : reading.warnings) spdlog::warn("{}", each.what());
+  warnOfModel(procedure, file);
+  const bool isSound = reading.warnings.empty() && modelFindings(procedure).empty();
+  return isSound ? 0 : static_cast<int>(ExitStatus::kInternal);
 }
 
 }  // namespace pleinair::app

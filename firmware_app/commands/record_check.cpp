@@ -68,8 +68,15 @@ void printFindings(const std::filesystem::path& file, const record::RecordReadin
 int checkRecordOfWork(const RecordCheckOptions& options) {
   record::RecordReading reading = orThrow(record::checkRecordFile(options.record));
   if (options.finalHash && reading.finalHash() != *options.finalHash) {
-    reading.findings.push_back({0, fmt::format("ends with the hash {}, not with {}",
-                                               reading.finalHash(), *options.finalHash)});
+    const bool isLineBefore =
+        !reading.entries.empty() && reading.entries.back().previous == *options.finalHash;
+    reading.findings.push_back(
+        {0, isLineBefore
+                ? fmt::format("{} is the hash of the line before the sign-off: the final hash is "
+                              "the last line's \"hash\"",
+                              *options.finalHash)
+                : fmt::format("ends with the hash {}, not with {}", reading.finalHash(),
+                              *options.finalHash)});
   }
   if (options.report) writeReport(options, reading);
   for (const std::string& note : reading.notes) spdlog::info("{}", note);

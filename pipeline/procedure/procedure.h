@@ -29,12 +29,14 @@ std::string_view nameOf(WarningLevel level);
 
 struct Warning {
   std::string id;
+  int line = 0;  ///< in the TOML file
   WarningLevel level = WarningLevel::kWarning;
   Translations text;
 };
 
 struct Tool {
   std::string id;
+  int line = 0;  ///< in the TOML file
   Translations name;
 };
 

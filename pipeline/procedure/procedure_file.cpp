@@ -12,6 +12,7 @@
 #include "config/suggestion.h"
 #include "config/toml_reader.h"
 #include "pipeline/procedure/instruction_text.h"
+#include "pipeline/procedure/likely_mistakes.h"
 #include "pipeline/procedure/step_graph.h"
 #include "pipeline/procedure/step_table.h"
 #include "pipeline/procedure/unknown_keys.h"
@@ -59,11 +60,26 @@ class ProcedureReader {
                                                 "tools",     "version", "warnings"};
     std::ranges::move(unknownKeys(root, kKeys), std::back_inserter(reading_.faults));
     readTexts();
-    const bool hasSteps = !reading_.procedure.steps.empty() && isSound;
-    if (!hasSteps) return;
-    for (ConfigError& each : graphFaults(reading_.procedure, name_)) {
-      reading_.faults.push_back(std::move(each));
-    }
+    addWayFindings();
+    if (isSound)
+      reading_.warnings =
+          joined(std::move(reading_.warnings), likelyMistakes(reading_.procedure, name_));
+  }
+
+  void addWayFindings() {
+    if (!areWaysKnown_) return;
+    const Procedure& procedure = reading_.procedure;
+    reading_.faults = joined(std::move(reading_.faults), wayFaults(procedure, name_));
+    if (!arePartsKnown_ || !procedure.model) return;
+    PartFindings found = partFindings(procedure, name_);
+    reading_.faults = joined(std::move(reading_.faults), std::move(found.faults));
+    reading_.warnings = joined(std::move(reading_.warnings), std::move(found.warnings));
+  }
+
+  static std::vector<ConfigError> joined(std::vector<ConfigError> all,
+                                         std::vector<ConfigError> more) {
+    std::ranges::move(more, std::back_inserter(all));
+    return all;
   }
 
   void readHead(const TomlTable& root) {
@@ -110,7 +126,7 @@ class ProcedureReader {
                 const auto table = root.optionalTable("tools");
                 if (!table) return;
                 for (const std::string& id : table->keys()) {
-                  procedure.tools.push_back({.id = id});
+                  procedure.tools.push_back({.id = id, .line = table->lineOf(id)});
                   const bool isRead =
                       tryTo([&] { procedure.tools.back().name = translations(table->table(id)); });
                   if (isRead) tryTo([&] { table->table(id).finish(); });
@@ -122,7 +138,7 @@ class ProcedureReader {
                 const auto table = root.optionalTable("warnings");
                 if (!table) return;
                 for (const std::string& id : table->keys()) {
-                  procedure.warnings.push_back({.id = id});
+                  procedure.warnings.push_back({.id = id, .line = table->lineOf(id)});
                   const bool isRead =
                       tryTo([&] { readWarning(table->table(id), procedure.warnings.back()); });
                   if (isRead) tryTo([&] { table->table(id).finish(); });
@@ -168,11 +184,15 @@ class ProcedureReader {
       const bool isNamed = tryTo([&] { procedure.steps.push_back(readStepId(table, procedure)); });
       // Its place is kept, and other mistakes are found, too.
       if (!isNamed) procedure.steps.push_back({.id = wrongIdOf(table)});
+      areWaysKnown_ = areWaysKnown_ && isNamed;
       isSound = isNamed && isSound;
     }
     for (std::size_t i = 0; i < tables.size(); ++i) {
       const std::size_t before = reading_.faults.size();
-      if (!readStep(tables[i], procedure, i, reading_.faults)) unknownChecks_.insert(i);
+      const StepReading step = readStep(tables[i], procedure, i, reading_.faults);
+      if (!step.isCheckKnown) unknownChecks_.insert(i);
+      areWaysKnown_ = areWaysKnown_ && step.isWayKnown;
+      arePartsKnown_ = arePartsKnown_ && step.arePartsKnown;
       isSound = reading_.faults.size() == before && isSound;
       std::ranges::move(unknownStepKeys(tables[i]), std::back_inserter(reading_.faults));
       if (auto& movie = procedure.steps[i].movie) {
@@ -287,6 +307,8 @@ class ProcedureReader {
   ProcedureSources& sources_;
   ProcedureReading reading_;
   std::set<std::size_t> unknownChecks_;  ///< steps with a mistake in their check
+  bool areWaysKnown_ = true;
+  bool arePartsKnown_ = true;
 };
 
 }  // namespace

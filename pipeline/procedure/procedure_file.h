@@ -42,6 +42,8 @@ class ProcedureSources {
 struct ProcedureReading {
   Procedure procedure;
   std::vector<config::ConfigError> faults;
+  std::vector<config::ConfigError>
+      warnings;  ///< what is likely wrong, and keeps nothing from running
 };
 
 // clang-format off

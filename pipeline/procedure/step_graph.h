@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -8,10 +9,24 @@
 
 namespace pleinair::procedure {
 
-/// Mistakes of the way through a procedure, each at its step's line of `file`: steps that nothing
-/// leads to, steps from which no way leads to the end, parts that are shown although every way
-/// there has removed them, or the outcome that leads there, and parts that are fitted although no
-/// way there has removed them.
-std::vector<config::ConfigError> graphFaults(const Procedure& procedure, const std::string& file);
+/// Steps that nothing leads to, and steps from which no way leads to the end, each at its line.
+std::vector<config::ConfigError> wayFaults(const Procedure& procedure, const std::string& file);
+
+/// Mistakes with parts. Warnings: what only some ways do wrong, which people's answers may exclude.
+struct PartFindings {
+  std::vector<config::ConfigError> faults;
+  std::vector<config::ConfigError> warnings;
+};
+
+/// Parts that are shown or removed although they are off by then, or fitted although they are on,
+/// and the outcomes that lead to such a step. Precondition: the procedure has its model.
+PartFindings partFindings(const Procedure& procedure, const std::string& file);
+
+/// Parts that are off when the procedure ends; indices in Model::parts, rising.
+struct PartsLeftOff {
+  std::vector<std::size_t> onEveryWay, onSomeWays;
+};
+/// Precondition: the procedure has its model.
+PartsLeftOff partsLeftOff(const Procedure& procedure);
 
 }  // namespace pleinair::procedure

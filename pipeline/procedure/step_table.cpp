@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <span>
@@ -51,16 +52,27 @@ std::vector<std::string> patternsOf(std::span<const std::string> names) {
   return {patterns.begin(), patterns.end()};
 }
 
-/// "piston#2": the second of the parts named "piston"; nothing where it is no such name.
-std::optional<std::size_t> partNumbered(const scene::Model& model, std::string_view name) {
+/// "piston#2": the second of the parts named "piston".
+struct NumberedName {
+  std::string_view stem;
+  std::size_t number = 0;  ///< from 1
+};
+
+std::optional<NumberedName> numberedName(std::string_view name) {
   const std::size_t sign = name.rfind('#');
   if (sign == std::string_view::npos) return std::nullopt;
   std::size_t number = 0;
   const char* const end = name.data() + name.size();
   const auto parsed = std::from_chars(name.data() + sign + 1, end, number);
-  if (parsed.ec != std::errc{} || parsed.ptr != end || number == 0) return std::nullopt;
+  if (parsed.ec != std::errc{} || parsed.ptr != end) return std::nullopt;
+  return NumberedName{.stem = name.substr(0, sign), .number = number};
+}
+
+std::optional<std::size_t> partNumbered(const scene::Model& model, std::string_view name) {
+  std::optional<NumberedName> wanted = numberedName(name);
+  if (!wanted || wanted->number == 0) return std::nullopt;
   for (std::size_t i = 0; i < model.parts.size(); ++i) {
-    if (model.parts[i].name == name.substr(0, sign) && --number == 0) return i;
+    if (model.parts[i].name == wanted->stem && --wanted->number == 0) return i;
   }
   return std::nullopt;
 }
@@ -80,7 +92,15 @@ std::vector<std::size_t> partsNamed(const scene::Model& model, std::string_view 
 }
 
 /// CAD programs add numbers to names: the beginning of one may be meant.
-std::string unknownNodeText(const std::string& name, std::span<const std::string> known) {
+std::string unknownNodeText(const std::string& name, std::span<const std::string> known,
+                            const scene::Model& model) {
+  if (const auto numbered = numberedName(name)) {
+    const auto count = std::ranges::count(model.parts, numbered->stem, &scene::ModelPart::name);
+    if (count > 0) {
+      return fmt::format("the model has no node {}: its nodes \"{}\" are {}, from #1 on",
+                         config::quoted(name), numbered->stem, count);
+    }
+  }
   const auto beginsSo = [&](const std::string& each) { return each.starts_with(name); };
   const bool isBeginning = !name.empty() && std::ranges::any_of(known, beginsSo);
   const std::vector<std::string> meant = isBeginning ? std::vector{name + "*"}
@@ -90,6 +110,14 @@ std::string unknownNodeText(const std::string& name, std::span<const std::string
   return "the model has no node " + config::foundText(name, meant);
 }
 
+config::ConfigError unknownNode(const TomlTable& table, std::string_view key,
+                                const std::string& name, const scene::Model& model) {
+  const std::vector<std::string> known = nodeNames(model);
+  return table.error(
+      key, unknownNodeText(name, known, model),
+      shortListText(known) + "; `pleinair procedure check FOLDER --nodes` lists them");
+}
+
 std::vector<std::size_t> readParts(const TomlTable& table, std::string_view key,
                                    const Procedure& procedure) {
   const auto names = table.optionalStrings(key, {1, 1000}, "an array of nodes of the model");
@@ -97,10 +125,7 @@ std::vector<std::size_t> readParts(const TomlTable& table, std::string_view key,
   std::vector<std::size_t> parts;
   for (const std::string& name : *names) {
     const std::vector<std::size_t> found = partsNamed(*procedure.model, name);
-    if (found.empty()) {
-      const std::vector<std::string> known = nodeNames(*procedure.model);
-      throw table.error(key, unknownNodeText(name, known), shortListText(known));
-    }
+    if (found.empty()) throw unknownNode(table, key, name, *procedure.model);
     parts.insert(parts.end(), found.begin(), found.end());
   }
   std::ranges::sort(parts);
@@ -154,17 +179,22 @@ void forNamedParts(const TomlTable& table, const Procedure& procedure, Take take
   for (const std::string& key : table.keys()) {
     const std::vector<std::size_t> parts =
         procedure.model ? partsNamed(*procedure.model, key) : std::vector<std::size_t>{};
-    if (procedure.model && parts.empty()) {
-      const std::vector<std::string> known = nodeNames(*procedure.model);
-      throw table.error(key, unknownNodeText(key, known), shortListText(known));
-    }
+    if (procedure.model && parts.empty()) throw unknownNode(table, key, key, *procedure.model);
     take(key, parts);
   }
 }
 
+/// How far an exploded view may take parts: more is a mistake in the unit.
+double mostApartMetres(const Procedure& procedure) {
+  constexpr double kMostRadii = 6.0;  // of the machine: three times its size
+  constexpr double kWithoutModel = 100.0;
+  if (!procedure.model) return kWithoutModel;
+  const double radius = procedure.unitMetres * scene::boundingSphere(*procedure.model).radiusMetres;
+  return radius > 0.0 ? kMostRadii * radius : kWithoutModel;
+}
+
 /// motion, axis, show = { NODE = "tint", … } and apart = { NODE = 0.08, … }
 void readViews(const TomlTable& table, const Procedure& procedure, Step& step) {
-  constexpr double kMostMetres = 100.0;
   if (table.has("motion")) step.motion = table.choice("motion", kMotions);
   if (table.has("axis")) step.axis = table.choice("axis", kAxes);
   if (const std::optional<TomlTable> show = table.optionalTable("show")) {
@@ -175,7 +205,12 @@ void readViews(const TomlTable& table, const Procedure& procedure, Step& step) {
   }
   if (const std::optional<TomlTable> apart = table.optionalTable("apart")) {
     forNamedParts(*apart, procedure, [&](const std::string& key, const auto& parts) {
-      const double metres = apart->number(key, {-kMostMetres, kMostMetres});
+      const double most = mostApartMetres(procedure);
+      const double metres = apart->number(key);
+      if (!(std::abs(metres) <= most)) {
+        throw apart->error(key, fmt::format("found {:g} metres", metres),
+                           fmt::format("at most {:.2g} m, three times the machine's size", most));
+      }
       for (const std::size_t part : parts) step.apart.emplace_back(part, metres);
     });
   }
@@ -201,7 +236,8 @@ void readValueCheck(const TomlTable& table, Check& check) {
   if (check.min && check.max && *check.min >= *check.max) {
     throw table.error(
         "min", fmt::format("found {:g}, which is not below max = {:g}", *check.min, *check.max),
-        fmt::format("min = {:g}, max = {:g}", *check.max, *check.min));
+        *check.min > *check.max ? fmt::format("min = {:g}, max = {:g}", *check.max, *check.min)
+                                : "a min below max, such as the value less its tolerance");
   }
 }
 
@@ -213,9 +249,15 @@ std::optional<Check> readCheck(const TomlTable& step) {
        {"compare", CheckKind::kCompare}}};
   Check check;
   if (step.isString("check")) {  // the short form of a check without keys
-    static constexpr std::array<config::Choice<CheckKind>, 2> kShort{
-        {{"yes_no", CheckKind::kYesNo}, {"photo", CheckKind::kPhoto}}};
-    check.kind = step.choice("check", kShort);
+    check.kind = step.choice("check", kKinds);
+    if (check.kind == CheckKind::kValue) {
+      throw step.error("check", "\"value\" needs its unit and limits",
+                       "{ kind = \"value\", unit = \"mm\", min = 0.1, max = 0.3 }");
+    }
+    if (check.kind == CheckKind::kCompare) {
+      throw step.error("check", "\"compare\" needs its template",
+                       "{ kind = \"compare\", template = \"right.png\" }");
+    }
     return check;
   }
   const std::optional<TomlTable> given = step.optionalTable("check");
@@ -292,8 +334,9 @@ Step readStepId(const TomlTable& table, const Procedure& procedure) {
   return step;
 }
 
-bool readStep(const TomlTable& table, Procedure& procedure, std::size_t index,
-              std::vector<config::ConfigError>& faults) {
+StepReading readStep(const TomlTable& table, Procedure& procedure, std::size_t index,
+                     std::vector<config::ConfigError>& faults) {
+  StepReading reading;
   Step& step = procedure.steps[index];
   const auto tryTo = [&](const auto& action) {
     try {
@@ -304,9 +347,11 @@ bool readStep(const TomlTable& table, Procedure& procedure, std::size_t index,
       return false;
     }
   };
-  tryTo([&] { step.parts = readParts(table, "parts", procedure); });
-  tryTo([&] { step.removes = readParts(table, "removes", procedure); });
-  tryTo([&] { step.fits = readParts(table, "fits", procedure); });
+  for (auto& [key, parts] : {std::pair("parts", &step.parts), std::pair("removes", &step.removes),
+                             std::pair("fits", &step.fits)}) {
+    const bool isKnown = tryTo([&] { *parts = readParts(table, key, procedure); });
+    reading.arePartsKnown = reading.arePartsKnown && isKnown;
+  }
   tryTo([&] { step.tools = readReferences(table, "tools", procedure.tools); });
   tryTo([&] { step.warnings = readReferences(table, "warnings", procedure.warnings); });
   tryTo([&] { readViews(table, procedure, step); });
@@ -316,13 +361,14 @@ bool readStep(const TomlTable& table, Procedure& procedure, std::size_t index,
       step.movie = StepMovie{.file = *std::move(file), .size = {}};
     }
   });
-  const bool isCheckKnown = tryTo([&] { step.check = readCheck(table); });
-  if (isCheckKnown) tryTo([&] { readNext(table, procedure, index, step); });
+  reading.isCheckKnown = tryTo([&] { step.check = readCheck(table); });
+  reading.isWayKnown =
+      reading.isCheckKnown && tryTo([&] { readNext(table, procedure, index, step); });
   // Without parts of its own, a step shows what it moves.
   if (!table.has("parts")) {
     std::ranges::set_union(step.removes, step.fits, std::back_inserter(step.parts));
   }
-  return isCheckKnown;
+  return reading;
 }
 
 std::vector<config::ConfigError> unknownStepKeys(const TomlTable& table) {

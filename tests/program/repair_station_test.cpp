@@ -88,8 +88,8 @@ class RepairStation : public testing::Test {
           "check = { kind = \"value\", unit = \"mm\", max = 0.2 }\n"
           "[[step]]\nid = \"shut\"\nfits = [\"cover\"]\ncheck = \"photo\"\n");
     write("work/en.md",
-          "# Work\n## open: Open it\n## look: Look\n? Is it clean?\n## gap: Measure\n? Gap\n"
-          "## shut: Shut it\n");
+          "# Work\n## open: Open it\nSlowly.\n## look: Look\n? Is it clean?\n## gap: Measure\n? Gap\n"
+          "## shut: Shut it\nSlowly.\n");
   }
 
   /// Writes the token of whoever may give commands to "token", readable by its owner alone.
@@ -152,7 +152,8 @@ TEST_F(RepairStation, ANewProcedureIsCheckedAndPreviewed) {
                                       "--language", "en", "--language", "pl"});
   ASSERT_EQ(made.status, 0) << made.error;
   const ProgramRun checked = runProgram({"procedure", "check", path("service"), "--nodes"});
-  EXPECT_EQ(checked.status, 0) << checked.error;
+  EXPECT_EQ(checked.status, 1);
+  EXPECT_THAT(checked.error, HasSubstr("pl.md: nothing stands below the heading of box"));
   EXPECT_THAT(checked.out, HasSubstr("1 steps in en, pl"));
   const ProgramRun drawn = runProgram(
       {"procedure", "preview", path("service"), "--output", path("sheet.png"), "--language", "pl"});

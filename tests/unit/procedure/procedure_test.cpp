@@ -127,6 +127,17 @@ INSTANTIATE_TEST_SUITE_P(
             "check = { kind = \"value\", unit = \"mm\", min = 3, max = 1 }",
             "p.toml:10: step[0].check.min: found 3, which is not below max = 1, allowed: min "
             "= 1, max = 3"},
+        StepMistake{"check = { kind = \"value\", unit = \"mm\", min = 3, max = 3 }",
+                    "found 3, which is not below max = 3, allowed: a min below max"},
+        StepMistake{"check = { kind = \"value\", unit = \"mm\", min = 0,1 }",
+                    "allowed: a decimal point: 0.1, not 0,1"},
+        StepMistake{"check = \"yesno\"",
+                    "step[0].check: found \"yesno\" (did you mean \"yes_no\"?), "
+                    "allowed: yes_no, value, photo, compare"},
+        StepMistake{"check = \"value\"", "\"value\" needs its unit and limits"},
+        StepMistake{"parts = [\"cover#2\"]",
+                    "the model has no node \"cover#2\": its nodes \"cover\" are 1, from #1 on"},
+        StepMistake{"apart = { cover = 101.0 }", "step[0].apart.cover: found 101 metres"},
         StepMistake{"check = { kind = \"value\", unit = \"mn\", min = 3 }",
                     "step[0].check.unit: found \"mn\""},
         StepMistake{"check = { kind = \"value\", unit = \"mm\" }", "allowed: min, max, or both"},
@@ -142,6 +153,35 @@ INSTANTIATE_TEST_SUITE_P(
                     "p.toml:11: step[1].id: \"a\" is the step at line 9 already"},
         StepMistake{"[[step]]\nid = \"end\"", "\"end\" is reserved"},
         StepMistake{"[[step]]\nid = \"No good\"", "step[1].id: found \"No good\""}));
+
+TEST(LikelyMistakes, ArePlacedAndSayWhatWouldBeRight) {
+  MemorySources sources;
+  sources.texts["en.md"] = "# T\n## a: Open\nTurn it.\n## b: Look\n";
+  sources.texts["de.md"] = "# T\n## a: Open\nTurn it.\n## b: Look\n";
+  std::string toml = kHead +
+                     "[tools]\nhex = { en = \"hex\", de = \"hex\" }\n"
+                     "[[step]]\nid = \"a\"\n[[step]]\nid = \"b\"\n";
+  toml.replace(toml.find("[\"en\"]"), 6, "[\"en\", \"de\"]");
+  const ProcedureReading reading = readProcedure(toml, "p.toml", sources);
+  EXPECT_EQ(messagesOf(reading), "");
+  std::string warnings;
+  for (const auto& each : reading.warnings) warnings += std::string(each.what()) + "\n";
+  EXPECT_EQ(warnings,
+            "p.toml:7: tools.hex: no step names it, allowed: tools of a step, or no such line\n"
+            "en.md: nothing stands below the heading of b, allowed: what to do there, a picture, "
+            "or a question\n"
+            "de.md: nothing stands below the heading of b, allowed: what to do there, a picture, "
+            "or a question\n"
+            "de.md: says the same as en.md, allowed: the texts in \"de\"\n");
+}
+
+TEST(ProcedureMistakes, OneOfAnotherKindHidesNoStepThatIsNeverReached) {
+  const std::string messages = messagesOf(
+      readSteps("[[step]]\nid = \"a\"\ntools = [\"x\"]\nnext = \"end\"\n[[step]]\nid = \"b\"\n",
+                {"a", "b"}, ""));
+  EXPECT_THAT(messages, HasSubstr("step[0].tools"));
+  EXPECT_THAT(messages, HasSubstr("\"b\" is never reached"));
+}
 
 TEST(ProcedureMistakes, EveryMistakeIsListed) {
   const std::string messages = messagesOf(

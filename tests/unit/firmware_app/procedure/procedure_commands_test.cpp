@@ -53,7 +53,7 @@ TEST_F(ProcedureCommands, ANewProcedureIsSoundAndOverwritesNothing) {
   const ProcedureNewOptions options{
       .folder = folder_.path() / "mine", .model = "builtin:gearbox", .languages = {"en", "de"}};
   EXPECT_EQ(newProcedure(options), 0);
-  EXPECT_EQ(checkProcedure({.folder = options.folder}), 0);
+  EXPECT_EQ(checkProcedure({.folder = options.folder}), 1) << "its texts are to be written";
   EXPECT_EQ(procedure::loadProcedure(options.folder).name, "mine");
   EXPECT_THAT(newError(options), testing::HasSubstr("exists already"));
 }
