@@ -40,7 +40,7 @@ std::string sizeText(const AxisBox& box) {
 }
 
 std::vector<std::string> modelFindings(const Procedure& procedure) {
-  constexpr double kHugeMetres = 20.0;
+  constexpr double kHugeMetres = 5.0;   // more does not fit before one camera
   constexpr double kTinyMetres = 0.02;  // what carries a tag is larger
   const scene::Scene scene = sceneOf(procedure);
   std::vector<std::string> findings = placementFindings(scene);
@@ -48,9 +48,9 @@ std::vector<std::string> modelFindings(const Procedure& procedure) {
   const glm::dvec3 size = box.most - box.least;
   const double longest = std::max({size.x, size.y, size.z});
   if (longest > kHugeMetres) {
-    findings.push_back(
-        fmt::format("the model is {} large: export it in metres, or say units = \"mm\" in [model]",
-                    sizeText(box)));
+    findings.push_back(fmt::format(
+        "the model is {} large: is units in [model] right (\"mm\" of most CAD programs)?",
+        sizeText(box)));
   } else if (longest > 0.0 && longest < kTinyMetres) {
     findings.push_back(fmt::format(
         "the model is {} small: it may have been scaled twice, or its units are not these",
@@ -60,11 +60,11 @@ std::vector<std::string> modelFindings(const Procedure& procedure) {
   return findings;
 }
 
-/// What is likely wrong with the model.
-void warnOfModel(const Procedure& procedure, const std::string& file) {
-  for (const std::string& finding : modelFindings(procedure)) {
-    spdlog::warn("{}: model: {}", file, finding);
-  }
+/// Warns of what is likely wrong with the model; returns whether anything is.
+bool warnOfModel(const Procedure& procedure, const std::string& file) {
+  const std::vector<std::string> findings = modelFindings(procedure);
+  for (const std::string& finding : findings) spdlog::warn("{}: model: {}", file, finding);
+  return !findings.empty();
 }
 
 /// "gap: ok -> lash, low stays here, high -> end": where a check's outcomes lead.
@@ -118,6 +118,13 @@ std::string nodeLines(const Procedure& procedure) {
 
 }  // namespace
 
+bool warnOfLikelyMistakes(const procedure::ProcedureReading& reading,
+                          const std::filesystem::path& folder) {
+  for (const config::ConfigError& each : reading.warnings) spdlog::warn("{}", each.what());
+  return warnOfModel(reading.procedure, (folder / procedure::kProcedureFile).string()) ||
+         !reading.warnings.empty();
+}
+
 int checkProcedure(const ProcedureCheckOptions& options) {
   const procedure::ProcedureReading reading = procedure::readProcedureFolder(options.folder);
   if (options.listsNodes) writeText(stdout, nodeLines(reading.procedure));
@@ -137,10 +144,8 @@ int checkProcedure(const ProcedureCheckOptions& options) {
   for (const std::string& line : branchLines(procedure)) text += "  " + line + "\n";
   text += leftOffLine(procedure);
   writeText(stdout, text);
-  for (const config::ConfigError& each : reading.warnings) spdlog::warn("{}", each.what());
-  warnOfModel(procedure, file);
-  const bool isSound = reading.warnings.empty() && modelFindings(procedure).empty();
-  return isSound ? 0 : static_cast<int>(ExitStatus::kInternal);
+  const bool isDoubtful = warnOfLikelyMistakes(reading, options.folder);
+  return isDoubtful ? static_cast<int>(ExitStatus::kInternal) : 0;
 }
 
 }  // namespace pleinair::app

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pipeline/procedure/procedure.h"
+#include "pipeline/procedure/procedure_file.h"
 #include "pipeline/record/record_check.h"
 
 namespace pleinair::app {
@@ -14,6 +15,10 @@ struct ProcedureCheckOptions {
   std::filesystem::path folder;
   bool listsNodes = false;  ///< prints the names that steps can use, also with mistakes elsewhere
 };
+
+/// Warns of what is likely wrong in a procedure without mistakes; returns whether anything is.
+bool warnOfLikelyMistakes(const procedure::ProcedureReading& reading,
+                          const std::filesystem::path& folder);
 
 /// Prints what a procedure's folder holds, and every mistake in it, each with file, line and
 /// remedy: `pleinair procedure check`. Returns the exit status: 0; 1 with likely mistakes only; 2

@@ -109,7 +109,10 @@ int stepColumns(std::size_t steps, int tileHeight) {
 
 int previewProcedure(const ProcedurePreviewOptions& options) {
   const Interrupt interrupt;
-  const Procedure loaded = procedure::loadProcedure(options.folder);
+  const procedure::ProcedureReading reading = procedure::readProcedureFolder(options.folder);
+  if (!reading.faults.empty()) throw reading.faults.front();
+  warnOfLikelyMistakes(reading, options.folder);
+  const Procedure& loaded = reading.procedure;
   const Procedure procedure = options.nodes ? stepsOfNodes(loaded) : loaded;
   const std::string language = stepLanguage(options, procedure);
   std::vector<NamedPath> read;
@@ -123,7 +126,7 @@ int previewProcedure(const ProcedurePreviewOptions& options) {
   }
   const int columns = stepColumns(procedure.steps.size(), kStepPicture.height + textRows);
   hal::PendingFile file = orThrow(hal::PendingFile::create(options.output));
-  StepPictures pictures(procedure, kStepPicture);
+  StepPictures pictures(procedure, kStepPicture, options.nodes);
   hal::SteadyClock clock;
   Progress progress("drawing", procedure.steps.size(), clock);
   std::vector<present::LabelledImage> tiles;

@@ -288,10 +288,15 @@ int run(const RunOptions& options) {
     refuseCollisionsOf(configuration, scene);
     requireFolder(output.snapshots);
     hal::SteadyClock clock;
+    const InputMap inputs = configuredInputMap(configuration);
+    {  // A start that is refused begins no record.
+      scene::Scene trial = scene;
+      const auto unrecorded = configuredProcedure(configuration, options.program, clock, false);
+      placedMachine(configuration, unrecorded.get(), trial);
+      refuseCardsOf(inputs, trial);
+    }
     const auto procedure = configuredProcedure(configuration, options.program, clock);
     const std::optional<std::size_t> machine = placedMachine(configuration, procedure.get(), scene);
-    const InputMap inputs = configuredInputMap(configuration);
-    refuseCardsOf(inputs, scene);
     StepCommandQueue commands;
     const std::string token =
         procedure ? configuredToken(configuration, static_cast<bool>(statusSocket)) : std::string();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/ext/matrix_transform.hpp>
 
 #include "config/config_error.h"
 #include "config/suggestion.h"
@@ -25,12 +26,13 @@ bool isSameMachine(const scene::ModelSource& a, const scene::ModelSource& b) {
 [[noreturn]] void refuse(const scene::Scene& scene, std::string problem) {
   std::vector<std::string> names;
   for (const scene::SceneModel& each : scene.models) names.push_back(each.name);
-  throw hal::Failure({.kind = hal::ErrorKind::kInvalidArgument,
-                      .subject = "procedure.machine",
-                      .problem = std::move(problem),
-                      .remedy = names.empty()
-                                    ? "give a scene (--scene) that places the machine on its tags"
-                                    : "choose one of: " + config::listText(names)});
+  throw hal::Failure(
+      {.kind = hal::ErrorKind::kInvalidArgument,
+       .subject = "procedure.machine",
+       .problem = std::move(problem),
+       .remedy = names.empty() ? "give a scene (--scene) that places the machine on its tags"
+                               : fmt::format("choose one of {}, as in --set procedure.machine={}",
+                                             config::listText(names), names.front())});
 }
 
 }  // namespace
@@ -56,7 +58,10 @@ std::size_t machineIn(const scene::Scene& scene, const procedure::Procedure& pro
 
 void putMachine(scene::Scene& scene, std::size_t machine, const procedure::Procedure& procedure) {
   scene::SceneModel& place = scene.models.at(machine);
-  if (std::abs(place.unitMetres / procedure.unitMetres - 1.0) > 1e-6) {
+  // The scene has said unit and up of a file that it places. A built-in model stands upright and is
+  // in metres, whatever stands in its place.
+  const bool isPlacedFile = std::holds_alternative<scene::FileSource>(place.source);
+  if (isPlacedFile && std::abs(place.unitMetres / procedure.unitMetres - 1.0) > 1e-6) {
     throw hal::Failure(
         {.kind = hal::ErrorKind::kInvalidArgument,
          .subject = "model " + config::quoted(place.name),
@@ -64,9 +69,11 @@ void putMachine(scene::Scene& scene, std::size_t machine, const procedure::Proce
                                 place.unitMetres, procedure.unitMetres),
          .remedy = "the same units in both"});
   }
-  // The scene has said which way is up in a file that it places; a built-in model stands upright.
-  if (!std::holds_alternative<scene::FileSource>(place.source)) {
-    place.attachFromModel = place.attachFromModel * glm::dmat4(procedure.uprightFromModel);
+  if (!isPlacedFile) {
+    place.attachFromModel =
+        place.attachFromModel *
+        glm::scale(glm::dmat4(procedure.uprightFromModel), glm::dvec3(procedure.unitMetres));
+    place.unitMetres = procedure.unitMetres;
   }
   auto model = std::make_shared<scene::Model>(*procedure.model);
   for (scene::ModelPart& part : model->parts) part.radiansPerSecond = 0.0;

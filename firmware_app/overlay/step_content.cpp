@@ -101,8 +101,12 @@ OverlayContent stepContent(const StepShown& shown, const scene::Model& machine,
 hal::Image stepInset(const StepShown& shown, const scene::Model& machine, int outputWidth) {
   OverlayContent content;
   addParts(shown, machine, content);
-  return modelPicture(machine, content.looks, content.ghosts, content.arrows,
-                      insetSize(outputWidth), shown.procedure->uprightFromModel);
+  std::span<const std::size_t> parts;
+  if (shown.step != procedure::kEnd) parts = shown.procedure->steps[shown.step].parts;
+  return modelPicture(
+      machine,
+      {.looks = content.looks, .ghosts = content.ghosts, .arrows = content.arrows, .parts = parts},
+      insetSize(outputWidth), shown.procedure->uprightFromModel);
 }
 
 std::shared_ptr<const overlay::PanelMovie> stepMovie(const StepShown& shown,

@@ -109,4 +109,40 @@ void drawArrows(hal::Image& picture, std::span<const overlay::Arrow> arrows,
   }
 }
 
+void drawAxes(hal::Image& picture, const scene::Model& machine, std::size_t part,
+              const glm::dmat4& cameraFromModel, const tracking::CameraModel& camera) {
+  struct Axis {
+    const char* name;
+    glm::dvec3 direction;
+    cv::Scalar colour;
+  };
+  static const std::array<Axis, 3> kAxes{{{"x", {1.0, 0.0, 0.0}, {214, 39, 40}},
+                                          {"y", {0.0, 1.0, 0.0}, {24, 128, 40}},
+                                          {"z", {0.0, 0.0, 1.0}, {31, 87, 214}}}};
+  constexpr double kLeastPx = 34.0;
+  const overlay::PartShape shape = overlay::shapeOf(machine, part);
+  const auto seenAt = [&](const glm::dvec3& point) {
+    return camera.project(glm::dvec3(cameraFromModel * glm::dvec4(point, 1.0)));
+  };
+  cv::Mat pixels(picture.size().height, picture.size().width, CV_8UC3, picture.plane(0).data());
+  const glm::dvec2 origin = seenAt(shape.centre);
+  const auto pointOf = [](const glm::dvec2& px) { return cv::Point(cvRound(px.x), cvRound(px.y)); };
+  const double reach = 1.3 * std::max(shape.radius, shape.halfLength);
+  const double reachPx =
+      std::max({glm::distance(origin, seenAt(shape.centre + reach * shape.axis)),
+                glm::distance(origin, seenAt(shape.centre + reach * shape.side)), 1e-3});
+  const double longer = std::max(1.0, kLeastPx / reachPx);
+  for (const bool isCasing : {true, false}) {
+    for (const Axis& each : kAxes) {
+      const glm::dvec3 along = overlay::alongAxis(shape, each.direction).axis;
+      const glm::dvec2 end = seenAt(shape.centre + longer * reach * along);
+      const cv::Scalar colour = isCasing ? cv::Scalar(255, 255, 255) : each.colour;
+      cv::arrowedLine(pixels, pointOf(origin), pointOf(end), colour, isCasing ? 5 : 2, cv::LINE_AA);
+      const glm::dvec2 beside = end + 9.0 * glm::normalize(end - origin + glm::dvec2(1e-6));
+      cv::putText(pixels, each.name, pointOf(beside + glm::dvec2(-5.0, 4.0)),
+                  cv::FONT_HERSHEY_SIMPLEX, 0.55, colour, isCasing ? 5 : 2, cv::LINE_AA);
+    }
+  }
+}
+
 }  // namespace pleinair::app

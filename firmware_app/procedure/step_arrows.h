@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -25,5 +26,10 @@ std::vector<overlay::Arrow> arrowsOf(const procedure::Step& step, const scene::M
 void drawArrows(hal::Image& picture, std::span<const overlay::Arrow> arrows,
                 const scene::Model& machine, const glm::dmat4& cameraFromModel,
                 const tracking::CameraModel& camera, double pxScale);
+
+/// Draws a part's own axes from its centre, x red, y green, z blue, each with its name: what `axis`
+/// of a step chooses from. `picture` as above.
+void drawAxes(hal::Image& picture, const scene::Model& machine, std::size_t part,
+              const glm::dmat4& cameraFromModel, const tracking::CameraModel& camera);
 
 }  // namespace pleinair::app

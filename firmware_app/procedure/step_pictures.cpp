@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <map>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "firmware_app/procedure/step_arrows.h"
+#include "firmware_app/procedure/step_close_up.h"
 #include "firmware_app/procedure/step_composite.h"
 #include "firmware_app/procedure/step_ghosts.h"
 #include "firmware_app/procedure/step_view.h"
@@ -49,16 +51,19 @@ struct GhostModel {
   }
 };
 
-/// The models that a step shows: its parts, the others, and ghosts.
-struct StepModels {
-  std::optional<scene::Model> focus, context;
-  std::vector<GhostModel> ghosts;
+/// Parts that are drawn alike.
+struct PartGroup {
+  scene::Model model;
+  StepPixel look = StepPixel::kContext;
+  bool isSubject = false;  ///< what the step is about
 };
 
-std::optional<scene::Model> modelOf(const scene::Model& machine,
-                                    const std::vector<std::size_t>& parts) {
-  return parts.empty() ? std::nullopt : std::optional(withParts(machine, parts));
-}
+/// The models that a step shows: other parts first, then those with a look, and ghosts.
+struct StepModels {
+  std::vector<PartGroup> groups;
+  std::vector<GhostModel> ghosts;
+  std::vector<std::size_t> subject;  ///< parts that the step is about, and shows
+};
 
 std::vector<GhostModel> ghostModels(const procedure::Step& step,
                                     const procedure::Procedure& procedure) {
@@ -71,12 +76,30 @@ std::vector<GhostModel> ghostModels(const procedure::Step& step,
   return models;
 }
 
+StepPixel lookOf(procedure::PartView view) {
+  using procedure::PartView;
+  switch (view) {
+    case PartView::kPlain:
+      return StepPixel::kContext;
+    case PartView::kFocus:
+      return StepPixel::kFocus;
+    case PartView::kTint:
+      return StepPixel::kTint;
+    case PartView::kOutline:
+      return StepPixel::kOutline;
+    case PartView::kHidden:
+    case PartView::kGhost:
+      return StepPixel::kGround;
+  }
+  return StepPixel::kContext;
+}
+
 /// `off`: parts that are off when the step begins.
 StepModels modelsOf(const procedure::Step& step, const procedure::Procedure& procedure,
                     const std::set<std::size_t>& off) {
   using procedure::PartView;
-  std::vector<std::size_t> focus;
-  std::vector<std::size_t> context;
+  StepModels models{.groups = {}, .ghosts = ghostModels(step, procedure), .subject = {}};
+  std::map<std::pair<StepPixel, bool>, std::vector<std::size_t>> parts;  // kContext is the first
   for (std::size_t part = 0; part < procedure.model->parts.size(); ++part) {
     const bool isStepsPart = std::ranges::binary_search(step.parts, part);
     PartView view = isStepsPart          ? PartView::kFocus
@@ -85,14 +108,15 @@ StepModels modelsOf(const procedure::Step& step, const procedure::Procedure& pro
     for (const auto& [of, other] : step.views) {
       if (of == part) view = other;
     }
-    if (view == PartView::kPlain) context.push_back(part);
-    const bool isMarked =
-        view == PartView::kFocus || view == PartView::kTint || view == PartView::kOutline;
-    if (isMarked) focus.push_back(part);
+    const StepPixel look = lookOf(view);
+    if (look == StepPixel::kGround) continue;
+    parts[{look, isStepsPart && look != StepPixel::kContext}].push_back(part);
+    if (isStepsPart) models.subject.push_back(part);
   }
-  return {.focus = modelOf(*procedure.model, focus),
-          .context = modelOf(*procedure.model, context),
-          .ghosts = ghostModels(step, procedure)};
+  for (const auto& [key, of] : parts) {
+    models.groups.push_back({withParts(*procedure.model, of), key.first, key.second});
+  }
+  return models;
 }
 
 /// The sphere around two; nothing may be in either.
@@ -105,7 +129,7 @@ scene::BoundingSphere around(const scene::BoundingSphere& one, const scene::Boun
   return {.centre = one.centre + (radius - one.radiusMetres) * towards, .radiusMetres = radius};
 }
 
-/// The scene that a step's pictures are drawn from: other parts on one tag, the step's parts and
+/// The scene that a step's pictures are drawn from: parts in focus on one tag, the others and
 /// ghosts on others, so that each can be drawn with and without the rest.
 scene::Scene sceneOf(const StepModels& models) {
   scene::Scene scene;
@@ -122,8 +146,9 @@ scene::Scene sceneOf(const StepModels& models) {
                             .attachFromModel = glm::translate(glm::dmat4(1.0), at),
                             .srgb = glm::vec3(1.0F)});
   };
-  if (models.context) add("context", *models.context, kContextTag);
-  if (models.focus) add("focus", *models.focus, kFocusTag);
+  for (const PartGroup& each : models.groups) {
+    add("parts", each.model, each.look == StepPixel::kFocus ? kFocusTag : kContextTag);
+  }
   for (const GhostModel& each : models.ghosts) {
     add("ghost", each.model, kGhostTag, each.apartMetres);
   }
@@ -133,8 +158,9 @@ scene::Scene sceneOf(const StepModels& models) {
 }  // namespace
 
 struct StepPictures::Impl {
-  Impl(const procedure::Procedure& procedureOf, hal::FrameSize size)
+  Impl(const procedure::Procedure& procedureOf, hal::FrameSize size, bool drawsAxesToo)
       : procedure(procedureOf),
+        drawsAxes(drawsAxesToo),
         large{2 * size.width, 2 * size.height},
         whole(scene::boundingSphere(*procedureOf.model)) {
     library.add(gpu::gpuShaders());
@@ -148,8 +174,11 @@ struct StepPictures::Impl {
 
   /// The step's models on the GPU.
   struct Drawing {
-    std::optional<scene::ArFrameRenderer> renderer;
-    std::uint32_t focusObject = 0;  ///< in ArFrame::ids; 0: none
+    std::unique_ptr<scene::ArFrameRenderer> renderer;
+    /// By object of ArFrame::ids; those of ghosts are not among them.
+    std::vector<StepPixel> looks{StepPixel::kGround};
+    std::vector<bool> isSubject{false};
+    bool hasFocus = false;
     std::uint32_t ghostObject = 0;  ///< the first of all; 0: none
     scene::BoundingSphere focusSphere;
     std::uint64_t sequence = 0;
@@ -198,53 +227,69 @@ struct StepPictures::Impl {
   std::vector<StepPixel> pixelsOf(Drawing& drawing, const gpu::Texture& ground,
                                   const glm::dmat4& cameraFromAttach) {
     std::vector<StepPixel> pixels;
+    // Where focus parts would be seen without the others: every object of that pass is one.
     const std::vector<bool> isFocus =
-        maskFrom(drawing, ground, cameraFromAttach, Drawn::kFocus, drawing.focusObject);
+        maskFrom(drawing, ground, cameraFromAttach, Drawn::kFocus, drawing.hasFocus ? 1U : 0U);
     eachObject(drawing, ground, cameraFromAttach, Drawn::kModel, [&](std::uint32_t object) {
-      const bool covers = !isFocus.empty() && isFocus[pixels.size()];
-      if (object == 0) {
-        pixels.push_back(StepPixel::kGround);
-      } else if (object == drawing.focusObject) {
-        pixels.push_back(StepPixel::kFocus);
-      } else {
-        pixels.push_back(covers ? StepPixel::kFocusHidden : StepPixel::kContext);
-      }
+      const StepPixel look = drawing.looks[object];
+      const bool covers = look != StepPixel::kGround && look != StepPixel::kFocus &&
+                          !isFocus.empty() && isFocus[pixels.size()];
+      pixels.push_back(covers ? StepPixel::kFocusHidden : look);
     });
     return pixels;
   }
 
-  /// The view that shows most of the parts. The usual one is left only for a much better one.
+  /// How many pixels show what the step is about.
+  double shownIn(Drawing& drawing, const ViewAngles& view) {
+    double shown = 0.0;
+    eachObject(drawing, trialPaper,
+               cameraFromModel(view, drawing.focusSphere, whole, procedure.uprightFromModel),
+               Drawn::kModel,
+               [&](std::uint32_t object) { shown += drawing.isSubject[object] ? 1.0 : 0.0; });
+    return shown;
+  }
+
+  /// The view that shows most of the parts. The one before, so that a mechanic need not turn the
+  /// machine in mind, and the usual one are left only for a much better one.
   ViewAngles bestView(Drawing& drawing) {
     constexpr double kMuchBetter = 1.4;
-    ViewAngles best = candidateViews().front();
-    if (drawing.focusObject == 0) return best;
-    double bestShown = -1.0;
+    const bool hasSubject = std::ranges::find(drawing.isSubject, true) != drawing.isSubject.end();
+    if (!hasSubject) return lastView;
+    ViewAngles best = lastView;
+    double bestShown = shownIn(drawing, lastView);
     for (const ViewAngles& view : candidateViews()) {
-      const auto pixels =
-          pixelsOf(drawing, trialPaper,
-                   cameraFromModel(view, drawing.focusSphere, whole, procedure.uprightFromModel));
-      const auto shown = static_cast<double>(std::ranges::count(pixels, StepPixel::kFocus));
+      const double shown = shownIn(drawing, view);
       if (shown <= kMuchBetter * bestShown) continue;
       best = view;
       bestShown = shown;
     }
+    lastView = best;
     return best;
   }
 
-  hal::Image draw(std::size_t index, const std::set<std::size_t>& off) {
-    const procedure::Step& step = procedure.steps[index];
-    const StepModels models = modelsOf(step, procedure, off);
-    Drawing drawing{.focusSphere = models.focus ? scene::boundingSphere(*models.focus) : whole};
-    std::uint32_t objects = models.context ? 1 : 0;
-    if (models.focus) drawing.focusObject = ++objects;
-    if (!models.ghosts.empty()) drawing.ghostObject = ++objects;
+  Drawing drawingOf(const StepModels& models) {
+    Drawing drawing;
+    for (const PartGroup& each : models.groups) {
+      drawing.looks.push_back(each.look);
+      drawing.isSubject.push_back(each.isSubject);
+      drawing.hasFocus = drawing.hasFocus || each.look == StepPixel::kFocus;
+    }
+    if (!models.ghosts.empty()) {
+      drawing.ghostObject = static_cast<std::uint32_t>(drawing.looks.size());
+    }
+    drawing.focusSphere = models.subject.empty()
+                              ? whole
+                              : scene::boundingSphere(withParts(*procedure.model, models.subject));
     for (const GhostModel& each : models.ghosts) {
       drawing.focusSphere = around(drawing.focusSphere, each.sphere());
     }
-    drawing.renderer.emplace(library, sceneOf(models));
-    const ViewAngles view = bestView(drawing);
-    const glm::dmat4 camera =
-        cameraFromModel(view, drawing.focusSphere, whole, procedure.uprightFromModel);
+    drawing.renderer = std::make_unique<scene::ArFrameRenderer>(library, sceneOf(models));
+    return drawing;
+  }
+
+  hal::Image pictureFrom(Drawing& drawing, const glm::dmat4& camera,
+                         std::span<const overlay::Arrow> arrows,
+                         std::optional<std::size_t> axesOf) {
     const std::vector<StepPixel> pixels = pixelsOf(drawing, paper, camera);
     const scene::ArFrame& frame = compose(drawing, paper, camera, Drawn::kModel);
     readback->submit(*frame.colour);
@@ -252,14 +297,66 @@ struct StepPictures::Impl {
     hal::orThrow(readback->wait(shaded));
     hal::Image picture = stepComposite(
         shaded, pixels, maskFrom(drawing, paper, camera, Drawn::kWithGhosts, drawing.ghostObject));
-    drawArrows(picture, arrowsOf(step, *procedure.model), *procedure.model, camera,
-               stepCamera(picture.size()), picture.size().width / 480.0);
+    drawArrows(picture, arrows, *procedure.model, camera, stepCamera(picture.size()),
+               picture.size().width / 480.0);
+    if (axesOf) drawAxes(picture, *procedure.model, *axesOf, camera, stepCamera(picture.size()));
+    return picture;
+  }
+
+  /// A part in the picture.
+  struct PartPlace {
+    scene::BoundingSphere sphere;
+    glm::dvec2 px{0.0};
+    double radiusPx = 0.0;
+    double depth = 0.0;
+  };
+
+  /// The part of the step that is nearest to the viewer, if it is too small to be seen well.
+  std::optional<PartPlace> smallPart(const StepModels& models, const glm::dmat4& camera,
+                                     hal::FrameSize size) const {
+    constexpr double kSmallShare = 0.055;  // of the picture's height
+    std::optional<PartPlace> nearest;
+    for (const std::size_t part : models.subject) {
+      const scene::BoundingSphere sphere =
+          scene::boundingSphere(withParts(*procedure.model, std::array{part}));
+      const glm::dvec3 at(camera * glm::dvec4(sphere.centre, 1.0));
+      const double radiusPx = stepCamera(size).intrinsics().fx * sphere.radiusMetres / at.z;
+      if (radiusPx > kSmallShare * size.height) return std::nullopt;
+      if (nearest && nearest->depth <= at.z) continue;
+      nearest = {.sphere = sphere,
+                 .px = stepCamera(size).project(at),
+                 .radiusPx = radiusPx,
+                 .depth = at.z};
+    }
+    return nearest;
+  }
+
+  hal::Image draw(std::size_t index, const std::set<std::size_t>& off) {
+    const procedure::Step& step = procedure.steps[index];
+    const StepModels models = modelsOf(step, procedure, off);
+    Drawing drawing = drawingOf(models);
+    const ViewAngles view = bestView(drawing);
+    const std::vector<overlay::Arrow> arrows = arrowsOf(step, *procedure.model);
+    const glm::dmat4 camera =
+        cameraFromModel(view, drawing.focusSphere, whole, procedure.uprightFromModel);
+    std::optional<std::size_t> axesOf;
+    if (drawsAxes && !models.subject.empty()) axesOf = models.subject.front();
+    const hal::FrameSize size{large.width / 2, large.height / 2};
+    const std::optional<PartPlace> part = smallPart(models, camera, size);
+    hal::Image picture = pictureFrom(drawing, camera, arrows, part ? std::nullopt : axesOf);
+    if (!part) return picture;
+    const glm::dvec3 middle(camera * glm::dvec4(drawing.focusSphere.centre, 1.0));
+    const glm::dmat4 near = closeUpFromModel(view, part->sphere, procedure.uprightFromModel);
+    setCloseUp(picture, pictureFrom(drawing, near, arrows, axesOf), part->px, 2.2 * part->radiusPx,
+               stepCamera(size).project(middle));
     return picture;
   }
 
   const procedure::Procedure& procedure;
+  bool drawsAxes = false;
   hal::FrameSize large;
   scene::BoundingSphere whole;
+  ViewAngles lastView = candidateViews().front();
   gpu::EglContext context;
   gpu::ShaderLibrary library;
   gpu::Texture paper;
@@ -267,8 +364,9 @@ struct StepPictures::Impl {
   std::optional<present::Readback> readback;
 };
 
-StepPictures::StepPictures(const procedure::Procedure& procedure, hal::FrameSize size)
-    : impl_(std::make_unique<Impl>(procedure, size)) {}
+StepPictures::StepPictures(const procedure::Procedure& procedure, hal::FrameSize size,
+                           bool drawsAxes)
+    : impl_(std::make_unique<Impl>(procedure, size, drawsAxes)) {}
 
 StepPictures::~StepPictures() = default;
 

@@ -14,7 +14,8 @@ namespace pleinair::app {
 class StepPictures {
  public:
   /// `procedure` outlives this. Throws hal::Failure without a GPU.
-  StepPictures(const procedure::Procedure& procedure, hal::FrameSize size);
+  /// `drawsAxes`: also those of the first part of each step.
+  StepPictures(const procedure::Procedure& procedure, hal::FrameSize size, bool drawsAxes = false);
   ~StepPictures();
   StepPictures(const StepPictures&) = delete;
   StepPictures& operator=(const StepPictures&) = delete;

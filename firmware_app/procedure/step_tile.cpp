@@ -64,11 +64,14 @@ std::string checkText(const Procedure& procedure, std::size_t index, const std::
   return "☐ " + text;
 }
 
-/// "yes → 5, no → 20"
-std::string branchText(const Step& step, const std::string& language) {
+/// "yes → 5, no → 20": a step that an outcome keeps leads to itself.
+std::string branchText(const Procedure& procedure, std::size_t index, const std::string& language) {
+  const Step& step = procedure.steps[index];
   const procedure::Words& words = procedure::wordsIn(language);
   std::vector<std::string> branches;
-  for (const auto& [outcome, next] : step.next) {
+  for (const Outcome outcome : procedure::outcomesOf(step.checkKind())) {
+    const auto found = step.next.find(outcome);
+    const std::size_t next = found != step.next.end() ? found->second : index;
     branches.push_back(fmt::format(
         "{} → {}", procedure::wordOf(words, outcome),
         next == procedure::kEnd ? std::string(words.end) : fmt::format("{}", next + 1)));
@@ -109,7 +112,7 @@ std::vector<TextBlock> blocksOf(const Procedure& procedure, std::size_t index,
   }
   if (step.check) {
     blocks.push_back({.text = checkText(procedure, index, language), .font = "Sans Bold"});
-    blocks.push_back({.text = branchText(step, language), .pixels = 13, .ink = kMuted});
+    blocks.push_back({.text = branchText(procedure, index, language), .pixels = 13, .ink = kMuted});
   }
   return blocks;
 }

@@ -1,10 +1,13 @@
 #include "firmware_app/procedure/step_view.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+
+#include "firmware_app/procedure/step_close_up.h"
 
 namespace pleinair::app {
 
@@ -38,23 +41,18 @@ tracking::CameraModel stepCamera(hal::FrameSize size) {
   return {{.fx = f, .fy = f, .cx = 0.5 * size.width, .cy = 0.5 * size.height}, {}, size};
 }
 
-glm::dmat4 cameraFromModel(const ViewAngles& view, const scene::BoundingSphere& focus,
-                           const scene::BoundingSphere& whole, const glm::dmat3& uprightFromModel) {
-  constexpr double kFocusShare = 1.8;  // radii of the focus in half of the picture
-  constexpr double kWholeShare = 0.55;
-  const double radius =
-      std::max({kFocusShare * focus.radiusMetres, kWholeShare * whole.radiusMetres, 1e-4});
-  const double inView = std::min(radius, 1.05 * std::max(whole.radiusMetres, focus.radiusMetres));
-  const double distance = inView / std::sin(0.5 * glm::radians(kStepViewDeg));
+namespace {
+
+/// `centre` in the upright frame; `radius`: what is in view around it, metres.
+glm::dmat4 cameraAt(const ViewAngles& view, const glm::dvec3& centre, double radius,
+                    const glm::dmat3& uprightFromModel) {
+  const double distance = radius / std::sin(0.5 * glm::radians(kStepViewDeg));
   const double a = glm::radians(view.azimuthDeg);
   const double e = glm::radians(view.elevationDeg);
   const glm::dvec3 toViewer(std::cos(e) * std::sin(a), -std::cos(e) * std::cos(a), std::sin(e));
   const glm::dvec3 ahead = -toViewer;
   const glm::dvec3 right = glm::normalize(glm::cross(ahead, glm::dvec3(0.0, 0.0, 1.0)));
   const glm::dvec3 down = glm::cross(ahead, right);
-  // A little towards the middle of the machine, so that the surroundings show where the part is.
-  const glm::dvec3 centre =
-      uprightFromModel * glm::mix(glm::dvec3(focus.centre), glm::dvec3(whole.centre), 0.2);
   const glm::dvec3 eye = centre + distance * toViewer;
   glm::dmat4 matrix(1.0);
   const std::array<glm::dvec3, 3> rows{right, down, ahead};
@@ -64,6 +62,28 @@ glm::dmat4 cameraFromModel(const ViewAngles& view, const scene::BoundingSphere& 
     matrix[3][row] = -glm::dot(axis, eye);
   }
   return matrix * glm::dmat4(uprightFromModel);
+}
+
+}  // namespace
+
+glm::dmat4 cameraFromModel(const ViewAngles& view, const scene::BoundingSphere& focus,
+                           const scene::BoundingSphere& whole, const glm::dmat3& uprightFromModel) {
+  constexpr double kFocusShare = 1.8;  // radii of the focus in half of the picture
+  constexpr double kWholeShare = 0.55;
+  const double radius =
+      std::max({kFocusShare * focus.radiusMetres, kWholeShare * whole.radiusMetres, 1e-4});
+  const double inView = std::min(radius, 1.05 * std::max(whole.radiusMetres, focus.radiusMetres));
+  // A little towards the middle of the machine, so that the surroundings show where the part is.
+  const glm::dvec3 centre =
+      uprightFromModel * glm::mix(glm::dvec3(focus.centre), glm::dvec3(whole.centre), 0.2);
+  return cameraAt(view, centre, inView, uprightFromModel);
+}
+
+glm::dmat4 closeUpFromModel(const ViewAngles& view, const scene::BoundingSphere& part,
+                            const glm::dmat3& uprightFromModel) {
+  constexpr double kPartShare = 2.0;  // radii of the part in half of the circle
+  const double radius = std::max(kPartShare * part.radiusMetres / kCloseUpShare, 1e-4);
+  return cameraAt(view, uprightFromModel * part.centre, radius, uprightFromModel);
 }
 
 }  // namespace pleinair::app

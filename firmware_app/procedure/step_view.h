@@ -38,4 +38,8 @@ glm::dmat4 cameraFromModel(const ViewAngles& view, const scene::BoundingSphere& 
                            const scene::BoundingSphere& whole,
                            const glm::dmat3& uprightFromModel = glm::dmat3(1.0));
 
+/// The same for a close-up of a part, of which the picture's middle circle (kCloseUpShare) is used.
+glm::dmat4 closeUpFromModel(const ViewAngles& view, const scene::BoundingSphere& part,
+                            const glm::dmat3& uprightFromModel = glm::dmat3(1.0));
+
 }  // namespace pleinair::app

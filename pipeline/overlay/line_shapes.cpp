@@ -16,6 +16,8 @@ constexpr double kHalfWidthPx = 2.5;
 constexpr double kLeastLengthPx = 30.0;
 constexpr double kMostLengthPx = 70.0;
 constexpr double kLeastRadiusPx = 12.0;
+constexpr double kGapPx = 8.0;        // between a part and the arrow around it
+constexpr double kLeastHeadPx = 9.0;  // less is no arrow beside its casing
 constexpr double kNearestMetres = 0.01;
 
 struct Eye {
@@ -49,13 +51,20 @@ void LineShapes::addArrow(const glm::dvec2& from, const glm::dvec2& to, double h
   const double length = glm::length(to - from);
   if (length < 1e-6) return;
   const glm::dvec2 way = (to - from) / length;
-  const glm::dvec2 across(-way.y, way.x);
   const double head = std::min(4.5 * halfWidthPx, 0.7 * length);
   const glm::dvec2 neck = to - head * way;
   addLine(from, neck, halfWidthPx);
-  add({.a = to,
-       .b = neck + 0.62 * head * across,
-       .c = neck - 0.62 * head * across,
+  addHead(neck, way, head);
+}
+
+void LineShapes::addHead(const glm::dvec2& neck, const glm::dvec2& along, double lengthPx) {
+  const double seen = glm::length(along);
+  if (seen < 1e-6) return;
+  const glm::dvec2 way = along / seen;
+  const glm::dvec2 across(-way.y, way.x);
+  add({.a = neck + lengthPx * way,
+       .b = neck + 0.62 * lengthPx * across,
+       .c = neck - 0.62 * lengthPx * across,
        .halfWidthPx = 0.5F,
        .isTriangle = true});
 }
@@ -96,7 +105,8 @@ void LineShapes::addShapesOf(const Arrow& arrow, const PartShape& shape,
   if (isAround(arrow.kind)) {
     // About the axis, as seen from its end: unscrewing goes counter-clockwise.
     const double least = eye.metresOf(kLeastRadiusPx * pxScale, top);
-    const double radius = std::max(1.35 * shape.radius, least);
+    const double gap = eye.metresOf(kGapPx * pxScale, top);
+    const double radius = std::max({1.35 * shape.radius, shape.radius + gap, least});
     const double radiusPx = kLeastRadiusPx * pxScale * radius / std::max(least, 1e-12);
     if (!takesPlace(*middle, 2.6 * radiusPx)) return;
     const double width = std::clamp(0.11 * radiusPx, 1.3 * pxScale, kHalfWidthPx * pxScale);
@@ -111,9 +121,7 @@ void LineShapes::addShapesOf(const Arrow& arrow, const PartShape& shape,
       const std::optional<glm::dvec2> px = eye.px(point);
       if (before && px) {
         if (i == kSteps) {
-          const glm::dvec2 way = *px - *before;
-          const double length = std::max(glm::length(way), 1e-6);
-          addArrow(*before, *before + way * (std::max(length, 5.0 * width) / length), width);
+          addHead(*before, *px - *before, std::max(5.0 * width, kLeastHeadPx * pxScale));
         } else {
           addLine(*before, *px, width);
         }

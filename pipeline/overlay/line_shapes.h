@@ -54,6 +54,8 @@ class LineShapes {
  private:
   void addShapesOf(const Arrow& arrow, const PartShape& shape, const glm::dmat4& cameraFromModel,
                    const tracking::CameraModel& camera, double pxScale, double phase);
+  /// A head from its neck on.
+  void addHead(const glm::dvec2& neck, const glm::dvec2& along, double lengthPx);
   bool takesPlace(const glm::dvec2& px, double apartPx);
   void add(const LineShape& shape) {
     if (shapes_.size() < kMost) shapes_.push_back(shape);

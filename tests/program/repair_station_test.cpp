@@ -87,9 +87,10 @@ class RepairStation : public testing::Test {
           "[[step]]\nid = \"gap\"\nparts = [\"gear_4\"]\n"
           "check = { kind = \"value\", unit = \"mm\", max = 0.2 }\n"
           "[[step]]\nid = \"shut\"\nfits = [\"cover\"]\ncheck = \"photo\"\n");
-    write("work/en.md",
-          "# Work\n## open: Open it\nSlowly.\n## look: Look\n? Is it clean?\n## gap: Measure\n? Gap\n"
-          "## shut: Shut it\nSlowly.\n");
+    write(
+        "work/en.md",
+        "# Work\n## open: Open it\nSlowly.\n## look: Look\n? Is it clean?\n## gap: Measure\n? Gap\n"
+        "## shut: Shut it\nSlowly.\n");
   }
 
   /// Writes the token of whoever may give commands to "token", readable by its owner alone.
@@ -387,6 +388,19 @@ TEST_F(RepairStation, StepsWhileTheCameraIsAwaited) {
                  limits);
   EXPECT_EQ(live.status, 0) << live.error;
   EXPECT_THAT(live.error, HasSubstr("step gap: "));
+}
+
+TEST_F(RepairStation, AStartThatIsRefusedLeavesNoRecord) {
+  recordBench("still", 1);
+  writeProcedure();
+  fs::create_directory(path("records"));
+  const ProgramRun run =
+      runProgram({"run", "--camera", path("bench.mp4"), "--output", path("out.mp4"), "--scene",
+                  path("bench.toml"), "--procedure", path("work"), "--set",
+                  "procedure.machine=lathe", "--set", "procedure.records=" + path("records")});
+  EXPECT_EQ(run.status, 2) << run.error;
+  EXPECT_THAT(run.error, HasSubstr("--set procedure.machine="));
+  EXPECT_TRUE(fs::is_empty(path("records")));
 }
 
 }  // namespace

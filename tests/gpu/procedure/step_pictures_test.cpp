@@ -70,7 +70,7 @@ TEST_F(StepPicturesTest, PartsThatAreOffAreNotDrawn) {
   }
   const hal::Image alone = pictures.draw(plug, others);
   EXPECT_GT(whole, 20.0);
-  EXPECT_LT(drawnPercent(alone), 2.0);
+  EXPECT_LT(drawnPercent(alone), 10.0) << "it, and its close-up";
   EXPECT_GT(reservedPercent(alone), 0.15) << "the step's part is drawn all the same";
 }
 
@@ -109,11 +109,63 @@ TEST_F(StepPicturesTest, PartsAreShownAsTheStepSays) {
   StepPictures pictures(procedure_, kSize);
   const hal::Image usual = pictures.draw(index, {});
   drained.views = {{cover, procedure::PartView::kTint}};
+  EXPECT_GT(palePercent(pictures.draw(index, {})), palePercent(usual) + 5.0);
+  drained.views = {{cover, procedure::PartView::kFocus}};
   EXPECT_GT(reservedPercent(pictures.draw(index, {})), reservedPercent(usual) + 5.0);
+  drained.views = {{cover, procedure::PartView::kOutline}};
+  const double outlined = reservedPercent(pictures.draw(index, {}));
+  EXPECT_GT(outlined, reservedPercent(usual) + 0.3) << "a line around it";
+  EXPECT_LT(outlined, reservedPercent(usual) + 4.0) << "and nothing on it";
   drained.views = {{cover, procedure::PartView::kGhost}};
   EXPECT_GT(palePercent(pictures.draw(index, {})), palePercent(usual) + 5.0);
   drained.views = {{drained.parts.front(), procedure::PartView::kHidden}};
   EXPECT_LT(reservedPercent(pictures.draw(index, {})), 0.05);
+}
+
+/// The share of pixels of the line around a close-up, in percent.
+double closeUpLinePercent(const hal::Image& image) {
+  int count = 0;
+  for (int y = 0; y < image.size().height; ++y) {
+    const auto row = image.view().row(0, y);
+    for (std::size_t i = 0; i + 2 < row.size(); i += 3) {
+      count += row[i] == 60 && row[i + 1] == 60 && row[i + 2] == 60 ? 1 : 0;
+    }
+  }
+  return 100.0 * count / (image.size().width * image.size().height);
+}
+
+TEST_F(StepPicturesTest, ASmallPartHasACloseUp) {
+  StepPictures pictures(procedure_, kSize);
+  const hal::Image plug = pictures.draw(step("drain"), {});
+  EXPECT_GT(closeUpLinePercent(plug), 0.5);
+  EXPECT_GT(reservedPercent(plug), 2.0) << "it is seen large";
+  EXPECT_EQ(closeUpLinePercent(pictures.draw(step("cover_off"), {})), 0.0);
+}
+
+TEST_F(StepPicturesTest, PartsThatAreShownAndNotMeantDoNotChooseTheView) {
+  const std::size_t index = step("drain");
+  StepPictures pictures(procedure_, kSize);
+  const double usual = closeUpLinePercent(pictures.draw(index, {}));
+  const std::size_t cover = procedure_.steps[step("cover_off")].parts.front();
+  procedure_.steps[index].views = {{cover, procedure::PartView::kOutline}};
+  EXPECT_NEAR(closeUpLinePercent(pictures.draw(index, {})), usual, 0.3)
+      << "the plug is as near as before";
+}
+
+TEST_F(StepPicturesTest, AxesAreDrawnWhereAskedFor) {
+  const std::size_t index = step("cover_off");
+  const auto bluePixels = [](const hal::Image& image) {
+    int count = 0;
+    for (int y = 0; y < image.size().height; ++y) {
+      const auto row = image.view().row(0, y);
+      for (std::size_t i = 0; i + 2 < row.size(); i += 3) {
+        count += row[i] < 60 && row[i + 1] < 120 && row[i + 2] > 190 ? 1 : 0;
+      }
+    }
+    return count;
+  };
+  EXPECT_EQ(bluePixels(StepPictures(procedure_, kSize).draw(index, {})), 0);
+  EXPECT_GT(bluePixels(StepPictures(procedure_, kSize, true).draw(index, {})), 30) << "z";
 }
 
 }  // namespace

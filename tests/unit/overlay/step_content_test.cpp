@@ -168,6 +168,40 @@ TEST_F(StepContentTest, AStepSaysHowPartsAreShown) {
   EXPECT_EQ(content.arrows[0].kind, overlay::ArrowKind::kTurn);
 }
 
+/// The share of pixels in a pale shade of the reserved colour, in percent.
+double palePercent(const hal::Image& image) {
+  int count = 0;
+  for (int y = 0; y < image.size().height; ++y) {
+    const auto row = image.view().row(0, y);
+    for (std::size_t i = 0; i + 3 < row.size(); i += 4) {
+      const bool isPurple = row[i] > row[i + 1] + 50 && row[i + 2] > row[i + 1] + 40;
+      count += isPurple && row[i + 1] > row[i] / 2 ? 1 : 0;
+    }
+  }
+  return 100.0 * count / (image.size().width * image.size().height);
+}
+
+TEST_F(StepContentTest, TheInsetTellsLooksAndGhostsApart) {
+  const auto insetOf = [&](const std::string& keys) {
+    const EditedProcedure edited(keys);
+    scene_ = gearboxScene();
+    ProcedureFilm film({.folder = edited.path(), .step = "seat"}, scene_);
+    return film.at(hal::Duration{0}, kOutput)->inset;
+  };
+  const hal::Image plain = insetOf(R"(motion = "none")");
+  const hal::Image focus = insetOf(R"(motion = "none", show = { housing = "focus" })");
+  const hal::Image tint = insetOf(R"(motion = "none", show = { housing = "tint" })");
+  const hal::Image outline = insetOf(R"(motion = "none", show = { housing = "outline" })");
+  const hal::Image apart = insetOf(R"(motion = "none", apart = { housing = 0.15 })");
+  EXPECT_GT(reservedPercent(focus), reservedPercent(plain) + 8.0);
+  EXPECT_GT(palePercent(tint), palePercent(plain) + 8.0);
+  EXPECT_LT(reservedPercent(tint), reservedPercent(plain) + 4.0);
+  EXPECT_GT(reservedPercent(outline), reservedPercent(plain) + 0.5);
+  EXPECT_LT(reservedPercent(outline) + palePercent(outline),
+            reservedPercent(plain) + palePercent(plain) + 8.0);
+  EXPECT_GT(palePercent(apart), palePercent(plain) + 4.0) << "translucent, beside its place";
+}
+
 TEST_F(StepContentTest, MistakesInHowPartsAreShownAreNamed) {
   for (const char* const keys :
        {R"(show = { houzing = "tint" })", R"(show = { housing = "tinted" })",
@@ -187,9 +221,23 @@ TEST_F(StepContentTest, AStepThatIsNotThereIsRefused) {
 TEST_F(StepContentTest, AMachineOfOtherUnitsIsRefused) {
   procedure::Procedure procedure = procedure::loadProcedure(kFolder);
   scene::Scene scene = gearboxScene();
+  scene.models.at(1).source = scene::FileSource{"gearbox.glb"};
   EXPECT_NO_THROW(putMachine(scene, 1, procedure));
   procedure.unitMetres = 0.001;
+  scene.models.at(1).source = scene::FileSource{"gearbox.glb"};
   EXPECT_THROW(putMachine(scene, 1, procedure), hal::Failure);
+}
+
+TEST_F(StepContentTest, InTheStandInsPlaceAModelHasItsOwnUnits) {
+  procedure::Procedure procedure = procedure::loadProcedure(kFolder);
+  procedure.unitMetres = 0.001;
+  scene::Scene scene = gearboxScene();
+  const glm::dmat4 before = scene.models.at(1).attachFromModel;
+  putMachine(scene, 1, procedure);
+  const glm::dvec4 along =
+      glm::inverse(before) * scene.models.at(1).attachFromModel * glm::dvec4(1.0, 0.0, 0.0, 0.0);
+  EXPECT_NEAR(along.x, 0.001, 1e-12);
+  EXPECT_EQ(scene.models.at(1).unitMetres, 0.001);
 }
 
 TEST_F(StepContentTest, AModelThatStandsInForAFileIsUprightAsTheFileSays) {

@@ -79,6 +79,7 @@ TEST_F(ProcedureCommands, ANewProcedureOfAnStlHasItsUnits) {
   EXPECT_THAT(newError({.folder = made, .model = stl.string()}), testing::HasSubstr("--units mm"));
   EXPECT_FALSE(fs::exists(made));
   EXPECT_EQ(newProcedure({.folder = made, .model = stl.string(), .units = "mm"}), 0);
+  std::ofstream(made / "en.md", std::ios::app) << "Hold it.\n";
   EXPECT_EQ(checkProcedure({.folder = made}), 0) << "neither huge nor without units";
   EXPECT_EQ(procedure::loadProcedure(made).unitMetres, 0.001);
   EXPECT_THAT(
