@@ -14,7 +14,7 @@
 #include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/scene/scene_check.h"
 #include "pipeline/procedure/procedure_file.h"
-#include "pipeline/procedure/step_graph.h"
+#include "pipeline/procedure/step_parts.h"
 
 namespace pleinair::app {
 namespace {

@@ -78,7 +78,14 @@ scene::ModelSource sourceOf(const ProcedureNewOptions& options) {
   std::string keys = "source = " + *text + "\n";
   if (!options.units.empty()) keys += "units = \"" + options.units + "\"\n";
   const auto document = config::TomlDocument::parseText(keys, "--model");
-  scene::ModelSource source = scene::readSource(document.root(), {});
+  const auto source = [&]() -> scene::ModelSource {
+    try {
+      return scene::readSource(document.root(), {});
+    } catch (const config::ConfigError& error) {
+      // The file and line are of text that nobody wrote.
+      throw refusedProcedure("--model", "found " + config::quoted(options.model), error.allowed());
+    }
+  }();
   const auto* const file = std::get_if<scene::FileSource>(&source);
   if (file == nullptr && !options.units.empty()) {
     throw refusedProcedure("--units", "has no meaning for " + options.model, "no --units");

@@ -14,6 +14,7 @@
 #include "pipeline/procedure/instruction_text.h"
 #include "pipeline/procedure/likely_mistakes.h"
 #include "pipeline/procedure/step_graph.h"
+#include "pipeline/procedure/step_parts.h"
 #include "pipeline/procedure/step_table.h"
 #include "pipeline/procedure/unknown_keys.h"
 #include "pipeline/scene/description/scene_values.h"

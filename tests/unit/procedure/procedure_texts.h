@@ -69,4 +69,9 @@ inline ProcedureReading readSteps(const std::string& steps, const std::vector<st
   return readProcedure(kHead + steps, "p.toml", sources);
 }
 
+/// The messages of steps whose texts are their ids alone.
+inline std::string messagesOfSteps(const std::string& steps, const std::vector<std::string>& ids) {
+  return messagesOf(readSteps(steps, ids, ""));
+}
+
 }  // namespace pleinair::procedure
