@@ -10,9 +10,11 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <spdlog/spdlog.h>
 
+#include "config/suggestion.h"
 #include "firmware_app/cli/exit_status.h"
 #include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/scene/scene_check.h"
+#include "pipeline/procedure/node_names.h"
 #include "pipeline/procedure/procedure_file.h"
 #include "pipeline/procedure/step_parts.h"
 
@@ -93,9 +95,7 @@ std::vector<std::string> branchLines(const Procedure& procedure) {
 std::string leftOffLine(const Procedure& procedure) {
   const procedure::PartsLeftOff left = procedure::partsLeftOff(procedure);
   const auto namesOf = [&](const std::vector<std::size_t>& parts) {
-    std::vector<std::string> names;
-    for (const std::size_t part : parts) names.push_back(procedure.model->parts[part].name);
-    return fmt::format("{}", fmt::join(names, ", "));
+    return config::listText(procedure::namesOfParts(*procedure.model, parts));
   };
   std::vector<std::string> lists;
   if (!left.onEveryWay.empty()) lists.push_back(namesOf(left.onEveryWay));

@@ -4,13 +4,13 @@
 #include <compare>
 #include <map>
 #include <set>
-#include <span>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "config/suggestion.h"
+#include "pipeline/procedure/node_names.h"
 #include "pipeline/procedure/step_graph.h"
 
 namespace pleinair::procedure {
@@ -136,20 +136,20 @@ class PartFaults {
       const PartUse use = useOf(procedure_.steps[at], part);
       if (!isWrong(use, before[at])) continue;
       if (!isRight(use, before[at])) {
-        onEveryWay_[{at, use}].push_back(nameOfPart(part));
+        onEveryWay_[{at, use}].push_back(part);
       } else if (!told.contains(at)) {
-        onSomeWay_[{at, use}].push_back(nameOfPart(part));
+        onSomeWay_[{at, use}].push_back(part);
       }
     }
   }
 
   PartFindings findings() const {
     PartFindings found;
-    for (const auto& [key, names] : onEveryWay_) {
+    for (const auto& [key, parts] : onEveryWay_) {
       const bool isFitted = key.second == PartUse::kFitted;
       found.faults.push_back(
           stepFault(procedure_, key.first, file_,
-                    fmt::format("{} {}, {}", verbOf(key.second), quotedNames(names),
+                    fmt::format("{} {}, {}", verbOf(key.second), quotedNames(parts),
                                 isFitted ? "on already" : "off by then"),
                     isFitted ? "a part that an earlier step removes"
                              : "a part that is on, or the part in fits too"));
@@ -158,19 +158,18 @@ class PartFaults {
       auto& list = key.isSure ? found.faults : found.warnings;
       list.push_back(edgeFault(key, parts));
     }
-    for (const auto& [key, names] : onSomeWay_) {
+    for (const auto& [key, parts] : onSomeWay_) {
       const bool isFitted = key.second == PartUse::kFitted;
       found.warnings.push_back(
           stepFault(procedure_, key.first, file_,
                     fmt::format("{} {}, {} on some ways there", verbOf(key.second),
-                                quotedNames(names), isFitted ? "on already" : "off by then"),
+                                quotedNames(parts), isFitted ? "on already" : "off by then"),
                     "a step of its own for each way"));
     }
     return found;
   }
 
  private:
-  using NamedPart = std::pair<std::size_t, std::string>;
   struct Edge {
     std::size_t from = 0;
     Outcome outcome = Outcome::kDone;
@@ -194,8 +193,7 @@ class PartFaults {
           // On the usual way, a step may show what another way leaves in its place.
           const bool mayBeMeant =
               to == from + 1 && useOf(procedure_.steps[user], part) == PartUse::kShown;
-          byEdge_[{from, outcome, to, user, !wrong.isAvoidable && !mayBeMeant}].push_back(
-              {part, nameOfPart(part)});
+          byEdge_[{from, outcome, to, user, !wrong.isAvoidable && !mayBeMeant}].push_back(part);
           told.insert(user);
         }
       }
@@ -203,11 +201,9 @@ class PartFaults {
     return told;
   }
 
-  config::ConfigError edgeFault(const Edge& edge, const std::vector<NamedPart>& parts) const {
-    const PartUse use = useOf(procedure_.steps[edge.user], parts.front().first);
+  config::ConfigError edgeFault(const Edge& edge, const std::vector<std::size_t>& parts) const {
+    const PartUse use = useOf(procedure_.steps[edge.user], parts.front());
     const bool isFitted = use == PartUse::kFitted;
-    std::vector<std::string> names;
-    for (const NamedPart& each : parts) names.push_back(each.second);
     const std::string leads =
         edge.to == edge.user ? fmt::format("\"{}\"", procedure_.steps[edge.to].id)
                              : fmt::format("\"{}\", and on to \"{}\"", procedure_.steps[edge.to].id,
@@ -215,7 +211,7 @@ class PartFaults {
     return stepFault(
         procedure_, edge.from, file_,
         fmt::format("\"{}\" leads to {}, which {} {}, {}", nameOf(edge.outcome), leads, verbOf(use),
-                    quotedNames(names), isFitted ? "on already" : "off by then"),
+                    quotedNames(parts), isFitted ? "on already" : "off by then"),
         isFitted ? "a way on which a step removes the part"
                  : "a way on which a step puts the part back, in fits");
   }
@@ -225,22 +221,22 @@ class PartFaults {
     return use == PartUse::kRemoved ? "removes" : "shows";
   }
 
-  std::string nameOfPart(std::size_t part) const {
-    return config::quoted(procedure_.model->parts[part].name);
-  }
-
-  static std::string quotedNames(const std::vector<std::string>& names) {
+  std::string quotedNames(const std::vector<std::size_t>& parts) const {
     constexpr std::size_t kShown = 4;
-    if (names.size() <= kShown) return config::listText(names);
-    return fmt::format("{} and {} more", config::listText(std::span(names).first(kShown)),
-                       names.size() - kShown);
+    std::vector<std::string> names = namesOfParts(*procedure_.model, parts);
+    const std::size_t shown = std::min(names.size(), kShown);
+    const std::size_t more = names.size() - shown;
+    names.resize(shown);
+    for (std::string& name : names) name = config::quoted(name);
+    const std::string list = config::listText(names);
+    return more == 0 ? list : fmt::format("{} and {} more", list, more);
   }
 
   const Procedure& procedure_;
   const std::string& file_;
-  std::map<std::pair<std::size_t, PartUse>, std::vector<std::string>> onEveryWay_;
-  std::map<std::pair<std::size_t, PartUse>, std::vector<std::string>> onSomeWay_;
-  std::map<Edge, std::vector<NamedPart>> byEdge_;
+  std::map<std::pair<std::size_t, PartUse>, std::vector<std::size_t>> onEveryWay_;
+  std::map<std::pair<std::size_t, PartUse>, std::vector<std::size_t>> onSomeWay_;
+  std::map<Edge, std::vector<std::size_t>> byEdge_;
 };
 
 }  // namespace

@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "config/suggestion.h"
+#include "pipeline/procedure/node_names.h"
 #include "pipeline/procedure/units.h"
 #include "pipeline/procedure/unknown_keys.h"
 
@@ -32,89 +30,11 @@ std::string shortListText(std::span<const std::string> names) {
   return fmt::format("{} … ({} in all)", config::listText(names.first(kShown)), names.size());
 }
 
-std::vector<std::string> nodeNames(const scene::Model& model) {
-  std::vector<std::string> names;
-  std::set<std::string_view> known;
-  for (const scene::ModelPart& part : model.parts) {
-    if (known.insert(part.name).second) names.push_back(part.name);
-  }
-  return names;
-}
-
-/// What a pattern may have meant: "bolt_*" of "bolt_1", "bearing_5_*" of "bearing_5_balls".
-std::vector<std::string> patternsOf(std::span<const std::string> names) {
-  std::set<std::string> patterns;
-  for (const std::string& name : names) {
-    for (std::size_t at = name.find('_'); at != std::string::npos; at = name.find('_', at + 1)) {
-      patterns.insert(name.substr(0, at + 1) + "*");
-    }
-  }
-  return {patterns.begin(), patterns.end()};
-}
-
-/// "piston#2": the second of the parts named "piston".
-struct NumberedName {
-  std::string_view stem;
-  std::size_t number = 0;  ///< from 1
-};
-
-std::optional<NumberedName> numberedName(std::string_view name) {
-  const std::size_t sign = name.rfind('#');
-  if (sign == std::string_view::npos) return std::nullopt;
-  std::size_t number = 0;
-  const char* const end = name.data() + name.size();
-  const auto parsed = std::from_chars(name.data() + sign + 1, end, number);
-  if (parsed.ec != std::errc{} || parsed.ptr != end) return std::nullopt;
-  return NumberedName{.stem = name.substr(0, sign), .number = number};
-}
-
-std::optional<std::size_t> partNumbered(const scene::Model& model, std::string_view name) {
-  std::optional<NumberedName> wanted = numberedName(name);
-  if (!wanted || wanted->number == 0) return std::nullopt;
-  for (std::size_t i = 0; i < model.parts.size(); ++i) {
-    if (model.parts[i].name == wanted->stem && --wanted->number == 0) return i;
-  }
-  return std::nullopt;
-}
-
-/// The parts of that name; "name_*": those whose names begin so; "name#2": one of several.
-std::vector<std::size_t> partsNamed(const scene::Model& model, std::string_view name) {
-  std::vector<std::size_t> parts;
-  const bool isPrefix = name.ends_with('*');
-  const std::string_view prefix = name.substr(0, name.size() - (isPrefix ? 1 : 0));
-  for (std::size_t i = 0; i < model.parts.size(); ++i) {
-    const std::string& each = model.parts[i].name;
-    if (isPrefix ? each.starts_with(prefix) : each == name) parts.push_back(i);
-  }
-  if (!parts.empty()) return parts;
-  if (const auto numbered = partNumbered(model, name)) parts.push_back(*numbered);
-  return parts;
-}
-
-/// CAD programs add numbers to names: the beginning of one may be meant.
-std::string unknownNodeText(const std::string& name, std::span<const std::string> known,
-                            const scene::Model& model) {
-  if (const auto numbered = numberedName(name)) {
-    const auto count = std::ranges::count(model.parts, numbered->stem, &scene::ModelPart::name);
-    if (count > 0) {
-      return fmt::format("the model has no node {}: its nodes \"{}\" are {}, from #1 on",
-                         config::quoted(name), numbered->stem, count);
-    }
-  }
-  const auto beginsSo = [&](const std::string& each) { return each.starts_with(name); };
-  const bool isBeginning = !name.empty() && std::ranges::any_of(known, beginsSo);
-  const std::vector<std::string> meant = isBeginning ? std::vector{name + "*"}
-                                         : name.ends_with('*')
-                                             ? patternsOf(known)
-                                             : std::vector<std::string>(known.begin(), known.end());
-  return "the model has no node " + config::foundText(name, meant);
-}
-
 config::ConfigError unknownNode(const TomlTable& table, std::string_view key,
                                 const std::string& name, const scene::Model& model) {
   const std::vector<std::string> known = nodeNames(model);
   return table.error(
-      key, unknownNodeText(name, known, model),
+      key, unknownNodeText(name, model),
       shortListText(known) + "; `pleinair procedure check FOLDER --nodes` lists them");
 }
 

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "pipeline/procedure/node_names.h"
 #include "tests/unit/procedure/procedure_texts.h"
 
 namespace pleinair::procedure {
@@ -252,6 +253,16 @@ TEST(Procedure, TellsNodesOfOneNameApart) {
   const std::string messages = messagesOf(read("\"piston#3\"", "\"rod#0\""));
   EXPECT_THAT(messages, HasSubstr("step[0].parts: the model has no node \"piston#3\""));
   EXPECT_THAT(messages, HasSubstr("step[1].parts: the model has no node \"rod#0\""));
+}
+
+TEST(Procedure, NamesPartsAsStepsWould) {
+  const auto model = modelWithParts({"piston", "rod", "piston", "bolt", "bolt"});
+  const auto names = [&](const std::vector<std::size_t>& parts) {
+    return namesOfParts(*model, parts);
+  };
+  EXPECT_THAT(names({0, 2, 3, 4}), ElementsAre("piston", "bolt"));
+  EXPECT_THAT(names({1, 2, 4}), ElementsAre("rod", "piston#2", "bolt#2"));
+  EXPECT_THAT(partsNamed(*model, names({2})[0]), ElementsAre(2));
 }
 
 /// An array below a table's head belongs to the table.

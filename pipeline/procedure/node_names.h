@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/scene/models/mesh.h"
+
+namespace pleinair::procedure {
+
+/// The names of a model's nodes, each once, in the model's order.
+std::vector<std::string> nodeNames(const scene::Model& model);
+
+/// Indices in Model::parts of what a procedure's name stands for: all of that name; "bolt_*",
+/// whose names begin so; "piston#2", the second of several. Empty for an unknown name.
+std::vector<std::size_t> partsNamed(const scene::Model& model, std::string_view name);
+
+/// The shortest names that stand for just these parts: "piston" for all of that name, "piston#2"
+/// for one of several. Precondition: each part is there once.
+std::vector<std::string> namesOfParts(const scene::Model& model,
+                                      std::span<const std::size_t> parts);
+
+/// What a message says of a name that no node has, and which may have been meant.
+std::string unknownNodeText(const std::string& name, const scene::Model& model);
+
+}  // namespace pleinair::procedure
