@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "config/config_error.h"
 #include "config/suggestion.h"
 
 namespace pleinair::procedure {

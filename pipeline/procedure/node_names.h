@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/scene/models/mesh.h"
+#include "pipeline/scene/models/model.h"
 
 namespace pleinair::procedure {
 

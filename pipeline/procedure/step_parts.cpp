@@ -1,10 +1,10 @@
 #include "pipeline/procedure/step_parts.h"
 
 #include <algorithm>
-#include <compare>
 #include <map>
 #include <set>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -176,7 +176,10 @@ class PartFaults {
     std::size_t to = 0;
     std::size_t user = 0;  ///< the step that uses the part wrongly: `to`, or one after it
     bool isSure = true;    ///< or it may be meant
-    auto operator<=>(const Edge&) const = default;
+    bool operator<(const Edge& other) const {
+      return std::tie(from, outcome, to, user, isSure) <
+             std::tie(other.from, other.outcome, other.to, other.user, other.isSure);
+    }
   };
 
   /// Where ways meet that leave the part on and off, an outcome may lead to a wrong use. Returns

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pipeline/procedure/procedure_file.h"
-#include "pipeline/scene/models/mesh.h"
+#include "pipeline/scene/models/model.h"
 
 namespace pleinair::procedure {
 
