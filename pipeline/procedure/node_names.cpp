@@ -16,7 +16,7 @@
 namespace pleinair::procedure {
 namespace {
 
-/// What a pattern may have meant: "bolt_*" of "bolt_1", "bearing_5_*" of "bearing_5_balls".
+/// Patterns that match some name: "bolt_*" of "bolt_1", "bearing_5_*" of "bearing_5_balls".
 std::vector<std::string> patternsOf(std::span<const std::string> names) {
   std::set<std::string> patterns;
   for (const std::string& name : names) {

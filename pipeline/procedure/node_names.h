@@ -22,7 +22,7 @@ std::vector<std::size_t> partsNamed(const scene::Model& model, std::string_view 
 std::vector<std::string> namesOfParts(const scene::Model& model,
                                       std::span<const std::size_t> parts);
 
-/// What a message says of a name that no node has, and which may have been meant.
+/// The text of a message about a name that no node has, with the nearest name that one has.
 std::string unknownNodeText(const std::string& name, const scene::Model& model);
 
 }  // namespace pleinair::procedure
