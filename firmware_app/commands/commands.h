@@ -12,6 +12,7 @@
 #include "firmware_app/sheets/printed_page.h"
 #include "hal/clock.h"
 #include "pipeline/measure/input/moved_photograph.h"
+#include "pipeline/measure/input/walking_cutout.h"
 
 namespace pleinair::app {
 
@@ -62,12 +63,13 @@ int examineMachine(const DoctorOptions& options);
 
 struct MeasureOptions {
   ConfigurationRequest configuration;
-  std::optional<std::filesystem::path> input;   ///< default: the synthetic camera
-  std::optional<std::filesystem::path> motion;  ///< file with the motion of a recording
-  measure::PhotographMotion photograph;         ///< motion of a photograph
-  bool standing = false;                        ///< the camera stands
-  bool imageSpace = false;                      ///< models are painted as part of a plain video
-  std::string movedBy;                          ///< "--pan", "--still" …; empty: none was given
+  std::optional<std::filesystem::path> input;    ///< default: the synthetic camera
+  std::optional<std::filesystem::path> motion;   ///< file with the motion of a recording
+  measure::PhotographMotion photograph;          ///< motion of a photograph
+  std::optional<measure::WalkerOptions> walker;  ///< what walks past a photograph
+  bool standing = false;                         ///< the camera stands
+  bool imageSpace = false;                       ///< models are painted as part of a plain video
+  std::string movedBy;                           ///< "--pan", "--walker" …; empty: none was given
   double noiseLevels = 2.0;
   std::optional<std::uint64_t> frames;
   std::optional<std::uint64_t> settle;

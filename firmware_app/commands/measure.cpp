@@ -56,10 +56,13 @@ std::unique_ptr<measure::MeasuredInput> openPhotographOf(const MeasureOptions& o
     throw refusal(by, "moves a photograph, but --input is missing",
                   fmt::format("give --input PICTURE, or leave {} out", by));
   }
-  measure::PhotographOptions photograph{.size = {},
-                                        .motion = options.photograph,
-                                        .noiseLevels = options.noiseLevels,
-                                        .frames = framesWanted(options)};
+  measure::PhotographOptions photograph{
+      .size = {},
+      .motion = options.photograph,
+      .noiseLevels = options.noiseLevels,
+      .frames = framesWanted(options),
+      .walker = options.walker,
+      .period = hal::fromSeconds(1.0 / configuredCamera(configuration).framesPerSecond)};
   const config::PixelSize size = configuration.painting().size;
   if (size != config::PixelSize{}) photograph.size = {size.width, size.height};
   const std::string remedy = fmt::format("give a PNG or JPEG picture, or leave {} out", by);
@@ -171,6 +174,7 @@ void refuseCollisionsOf(const MeasureOptions& options, std::vector<NamedPath> re
     read.push_back({"the motion of --input", *options.input / "motion.json"});
   }
   if (options.motion) read.push_back({"--motion", *options.motion});
+  if (options.walker) read.push_back({"--walker", options.walker->cutout});
   std::vector<NamedPath> written;
   if (options.json) written.push_back({"--json", *options.json});
   if (options.html) written.push_back({"--html", *options.html});

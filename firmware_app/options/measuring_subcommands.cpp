@@ -11,8 +11,8 @@
 namespace pleinair::app {
 namespace {
 
-/// Adds the options of `measure` that move a photograph; they exclude `others`, which say how a
-/// recording moves.
+/// Adds the options of `measure` that move a photograph; they exclude `others`, which say how
+/// something else moves.
 void addPhotographMotion(CLI::App& command, const std::vector<CLI::Option*>& others,
                          MeasureOptions& options) {
   CLI::Option* still = command.add_flag_callback(
@@ -45,6 +45,34 @@ void addPhotographMotion(CLI::App& command, const std::vector<CLI::Option*>& oth
       [&motion](const std::string& text) {
         motion.rollDegrees = numberOf("--roll", text, "", -45, 45);
       });
+}
+
+/// Adds the options of `measure` for what walks past a photograph, and returns the first.
+CLI::Option* addWalker(CLI::App& command, MeasureOptions& options) {
+  CLI::Option* walker =
+      command
+          .add_option_function<std::string>(
+              "--walker",
+              [&options](const std::string& path) {
+                if (!options.walker) options.walker.emplace();
+                options.walker->cutout = path;
+                options.movedBy = "--walker";
+                options.standing = true;
+              },
+              "a picture with transparency, such as a person cut out of a photograph, that walks "
+              "past --input's photograph; implies --standing")
+          ->type_name("PICTURE");
+  command
+      .add_option_function<std::string>(
+          "--walker-speed",
+          [&options](const std::string& text) {
+            if (!options.walker) options.walker.emplace();
+            options.walker->pixelsPerSecond = numberOf("--walker-speed", text, "", 10, 2000);
+          },
+          "its speed in px a second (default: 180)")
+      ->needs(walker)
+      ->type_name("SPEED");
+  return walker;
 }
 
 }  // namespace
@@ -83,7 +111,7 @@ void addMeasure(CLI::App& app, MeasureOptions& options, std::function<int()>& ch
       command
           .add_option("--input", options.input,
                       "a folder with motion.json or KITTI flow, a photograph with --pan, --zoom, "
-                      "--roll or --still, or any recording")
+                      "--roll, --still or --walker, or any recording")
           ->type_name("PATH");
   addKey(command, options.configuration, "--camera", "camera.source",
          "the workbench, whose motion is known (default: synthetic)", "synthetic:SHOT")
@@ -100,7 +128,8 @@ void addMeasure(CLI::App& app, MeasureOptions& options, std::function<int()>& ch
   command.add_flag("--image-space", options.imageSpace,
                    "paint the film with the models of --scene in it as a plain video, without "
                    "knowing the models, to compare");
-  addPhotographMotion(command, {motion, standing}, options);
+  CLI::Option* walker = addWalker(command, options)->needs(input)->excludes(motion);
+  addPhotographMotion(command, {motion, standing, walker}, options);
   command
       .add_option_function<std::string>(
           "--noise",

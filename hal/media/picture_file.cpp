@@ -29,6 +29,10 @@ Result<Image> readPictureRgb(const std::filesystem::path& path) {
   return read(path, libav::Delivery::kRgb);
 }
 
+Result<Image> readPictureRgba(const std::filesystem::path& path) {
+  return read(path, libav::Delivery::kRgba);
+}
+
 Result<Image> decodeRgba(std::span<const std::uint8_t> bytes, const std::string& subject) {
   const Result<std::shared_ptr<const AVFrame>> frame = libav::decodePicture(bytes, subject);
   if (!frame) return tl::unexpected(frame.error());

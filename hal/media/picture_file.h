@@ -20,6 +20,9 @@ Result<Image> readPicture(const std::filesystem::path& path);
 /// Like readPicture(), but always as RGB8.
 Result<Image> readPictureRgb(const std::filesystem::path& path);
 
+/// Like readPicture(), but as RGBA8 with its alpha, without applying its EXIF orientation.
+Result<Image> readPictureRgba(const std::filesystem::path& path);
+
 /// Decodes a picture file in memory as RGBA8 with its alpha, without applying its EXIF orientation:
 /// a model's texture. `subject` names it in errors, which are those of readPicture().
 Result<Image> decodeRgba(std::span<const std::uint8_t> bytes, const std::string& subject);

@@ -15,6 +15,7 @@
 #include "hal/image.h"
 #include "pipeline/measure/input/moved_photograph.h"
 #include "pipeline/measure/input/true_motion.h"
+#include "pipeline/measure/input/walking_cutout.h"
 
 namespace pleinair::measure {
 
@@ -52,10 +53,13 @@ struct PhotographOptions {
   std::optional<hal::FrameSize> size;
   PhotographMotion motion;
   double noiseLevels = 2.0;
-  std::uint64_t frames = 60;
+  std::uint64_t frames = 60;            ///< without a walker
+  std::optional<WalkerOptions> walker;  ///< then the input ends when it has passed
+  hal::Duration period = kFramePeriod;
 };
 
-/// Errors: as hal::readPictureRgb().
+/// Errors: as hal::readPictureRgb(); kInvalidInput too where nothing of the walker is opaque.
+/// Precondition: with a walker, the photograph does not move.
 hal::Result<std::unique_ptr<MeasuredInput>> openPhotograph(const std::filesystem::path& path,
                                                            const PhotographOptions& options);
 
