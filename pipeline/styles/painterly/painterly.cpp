@@ -44,7 +44,8 @@ using gpu::TextureFormat;
 
 const std::string kShaders = "pipeline/styles/painterly/shaders/";
 constexpr double kTexelOfWidth = 0.6;       // that a stroke's colours are of, at most
-constexpr std::size_t kGroundHalvings = 3;  // of the first wash
+constexpr std::size_t kGroundHalvings = 2;  // of the first wash
+constexpr std::size_t kClipHalvings = 1;    // of the picture that strokes are clipped by
 constexpr double kMoverGroundPixels = 4.0;  // that the wash of movers is of, at most
 
 Texture colours(hal::FrameSize size) {
@@ -304,9 +305,14 @@ void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyP
   const StrokeLight light{.each = p.bump == StrokeBump::kEach,
                           .relief = static_cast<float>(p.relief),
                           .gloss = static_cast<float>(p.gloss)};
+  const StrokeClip clipped{.borders = clip,
+                           .picture = &reduced.whole(kClipHalvings),
+                           .colour = static_cast<float>(p.colourClip),
+                           .byLuma = mixtures.has_value()};
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
     const Texture& brush = brushes.brush(p.brush, texelsOf(painting->plan, i));
-    drawing.draw(painting->layers[i]->strips, brush, light, clip, painting->full, canvas->strokes);
+    drawing.draw(painting->layers[i]->strips, brush, light, clipped, painting->full,
+                 canvas->strokes);
   }
 }
 

@@ -59,6 +59,8 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
                       "How much more detail counts on models than on what the camera sees."),
       numberParameter("colour_threshold", &P::colourThreshold, {.min = 0.01, .max = 1},
                       "The colour difference at which a fine stroke ends (thesis §4.4)."),
+      numberParameter("colour_clip", &P::colourClip, kPart,
+                      "How much strokes leave out what is of quite another colour, such as eyes."),
       numberParameter("cut_off", &P::cutOffDegrees, {.min = 1, .max = 90, .unit = "degrees"},
                       "The turn between two segments at which a fine stroke ends."),
       numberParameter("wander", &P::wander, {.min = 0, .max = 1, .unit = "rad"},
@@ -205,6 +207,7 @@ layer_ratio = 1.7
 length = 12
 middle_detail = 0.05
 detail = 0.12
+colour_clip = 0
 coverage = 3
 brush = "pencil"
 support = "paper"
@@ -229,6 +232,7 @@ layer_ratio = 1.7
 length = 12
 middle_detail = 0.05
 detail = 0.12
+colour_clip = 0
 coverage = 4
 brush = "round"
 palette = "sepia"

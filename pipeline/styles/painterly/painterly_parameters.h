@@ -33,6 +33,7 @@ struct PainterlyParameters {
   double middleDetail = 0.08;
   double modelDetail = 2.5;
   double colourThreshold = 0.11;
+  double colourClip = 1.0;
   double cutOffDegrees = 45.0;
   double wander = 0.12;
   double looseness = 0.8;  // of fast movers

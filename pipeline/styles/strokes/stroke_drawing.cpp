@@ -88,12 +88,19 @@ StrokeDrawing::StrokeDrawing(const gpu::ShaderLibrary& library,
 }
 
 void StrokeDrawing::draw(const StrokeStrips& strips, const gpu::Texture& brush,
-                         const StrokeLight& light, const gpu::Texture* borders, hal::FrameSize full,
+                         const StrokeLight& light, const StrokeClip& clip, hal::FrameSize full,
                          const gpu::RenderTarget& target) {
-  gpu::Program& program = paint_[light.each ? 1 : 0][borders != nullptr ? 1 : 0];
-  program.use().texture("brushes", brush).set("fullSize", glm::vec2(full.width, full.height));
+  gpu::Program& program = paint_[light.each ? 1 : 0][clip.borders != nullptr ? 1 : 0];
+  const hal::FrameSize size = target.size();
+  program.use()
+      .texture("brushes", brush)
+      .set("fullSize", glm::vec2(full.width, full.height))
+      .texture("picture", clip.picture != nullptr ? *clip.picture : brush)
+      .set("colourClip", clip.picture != nullptr ? clip.colour : 0.0F)
+      .set("byLuma", clip.byLuma ? 1 : 0)
+      .set("targetSize", glm::vec2(size.width, size.height));
   if (light.each) program.set("relief", light.relief).set("gloss", light.gloss);
-  if (borders != nullptr) program.texture("borders", *borders);
+  if (clip.borders != nullptr) program.texture("borders", *clip.borders);
   strips_.draw(program, strips, target);
 }
 

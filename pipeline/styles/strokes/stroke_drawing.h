@@ -22,6 +22,16 @@ struct StrokeLight {
   float gloss = 0.0F;
 };
 
+/// Where strokes are clipped.
+struct StrokeClip {
+  /// Of the target's size: the borders of what they lie on (shaders/borders.frag); null: nowhere.
+  const gpu::Texture* borders = nullptr;
+  /// The picture, LINEAR: they end where its colour is not theirs; null: nowhere.
+  const gpu::Texture* picture = nullptr;
+  float colour = 1.0F;  ///< by how much, in [0, 1]
+  bool byLuma = false;  ///< the strokes' hues are not the picture's
+};
+
 /// Draws strips with a style's own program, whose vertices are laid out as for shaders/stroke.vert,
 /// over what is in `target`, premultiplied. On the thread of the GL context.
 class StripDrawing {
@@ -45,10 +55,9 @@ class StrokeDrawing {
                          std::span<const DebugViewInfo> views = {});
 
   /// Draws a layer into `target`: colour (sRGB-coded, premultiplied) and height, both RGBA8, over
-  /// what is there. `brush` is makeBrush()'s; `borders`, of the target's size, says where strokes
-  /// are clipped (shaders/borders.frag); null: nowhere.
+  /// what is there. `brush` is makeBrush()'s.
   void draw(const StrokeStrips& strips, const gpu::Texture& brush, const StrokeLight& light,
-            const gpu::Texture* borders, hal::FrameSize full, const gpu::RenderTarget& target);
+            const StrokeClip& clip, hal::FrameSize full, const gpu::RenderTarget& target);
 
   /// Draws a view of a layer's strokes, in its colour, or anchors by their age; `view` is its place
   /// in the style's views. `quads` is the StrokeRule's

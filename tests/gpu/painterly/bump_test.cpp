@@ -48,7 +48,7 @@ class BumpTest : public StripTest {
     target.beginKeeping();
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT);
-    StrokeDrawing(library_).draw(strips_, brush, light, nullptr, kSize, target);
+    StrokeDrawing(library_).draw(strips_, brush, light, {}, kSize, target);
     hal::Image image = support::readRgba8(colour);
     const auto* pixel = image.row(0, 64).data() + std::ptrdiff_t{64} * 4;
     EXPECT_EQ(pixel[3], 255);

@@ -43,7 +43,7 @@ class SmoothStrokesTest : public StripTest {
     target.beginKeeping();
     glClearColor(0.5F, 0.5F, 0.5F, 0);
     glClear(GL_COLOR_BUFFER_BIT);
-    StrokeDrawing(library_).draw(strips_, makeBrush(Brush::kFlat, 8), {}, nullptr, kPictureSize,
+    StrokeDrawing(library_).draw(strips_, makeBrush(Brush::kFlat, 8), {}, {}, kPictureSize,
                                  target);
     hal::Image image = support::readRgba8(colour);
     cv::Mat1f grey(kPictureSize.height, kPictureSize.width);

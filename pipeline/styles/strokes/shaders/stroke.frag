@@ -1,8 +1,9 @@
 // Purpose: the paint of a brush mark and its thickness.
 // Defines: BUMPED: each stroke is lit by itself. CLIPPED: for a frame with models: no paint beyond
 //          the border of what it lies on.
-// Inputs, outputs: stroke_mark.glsl's; BUMPED: stroke_bump.glsl's; CLIPPED: stroke_clip.glsl's.
+// Inputs, outputs: stroke_mark.glsl's; colour_clip.glsl's; BUMPED: stroke_bump.glsl's; CLIPPED: stroke_clip.glsl's.
 // Precision: as there.
+#include "pipeline/styles/strokes/shaders/colour_clip.glsl"
 #include "pipeline/styles/strokes/shaders/stroke_mark.glsl"
 #ifdef BUMPED
 #include "pipeline/styles/strokes/shaders/stroke_bump.glsl"
@@ -15,7 +16,7 @@ void main() {
   vec2 place = brushPlace();
   vec2 texel = markAt(place);
   vec3 rgb = pigment(texel.g);
-  float cover = paint.a * texel.r;
+  float cover = paint.a * texel.r * shareOfColour(paint.rgb);
 #ifdef BUMPED
   rgb = bumped(rgb, place);
 #endif
