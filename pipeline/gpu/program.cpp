@@ -289,6 +289,17 @@ void Program::dispatch(glm::ivec2 items, GLbitfield barriers) {
   glMemoryBarrier(barriers);
 }
 
+void Program::dispatchIndirect(const Buffer& commands, std::size_t offsetBytes,
+                               GLbitfield barriers) {
+  assert(isCurrent(linked_->handle));
+  assert(offsetBytes % sizeof(GLuint) == 0 && offsetBytes + 12 <= commands.sizeBytes());
+  const PassTimer::Scope scope = measure();
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, commands.name());
+  glDispatchComputeIndirect(static_cast<GLintptr>(offsetBytes));
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+  glMemoryBarrier(barriers);
+}
+
 PassTimer::Scope Program::measure() const {
   PassTimer* const timer = timer_ == nullptr ? nullptr : *timer_;
   return timer == nullptr ? PassTimer::Scope(nullptr, 0) : timer->measureWithin(linked_->pass);

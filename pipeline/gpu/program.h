@@ -101,6 +101,10 @@ class Program {
   /// kMaxGroups along each axis), then makes its writes visible to what `barriers`
   /// (GL_*_BARRIER_BIT) names.
   void dispatch(glm::ivec2 items, GLbitfield barriers);
+  /// Runs a compute program over as many groups as the GPU finds at `offsetBytes` of `commands`:
+  /// three 32-bit counts, written before with GL_COMMAND_BARRIER_BIT among their barriers. None
+  /// runs where one of them is 0.
+  void dispatchIndirect(const Buffer& commands, std::size_t offsetBytes, GLbitfield barriers);
   /// Times GL calls of the caller's own, which draw with this program, while the scope lives.
   [[nodiscard]] PassTimer::Scope measure() const;
 

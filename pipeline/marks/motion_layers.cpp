@@ -30,8 +30,24 @@ constexpr hal::Duration kDoubted = std::chrono::seconds(3);
 constexpr unsigned kTurns = 2;  // shaders/motion_layers_tally.glsl
 constexpr std::size_t kTallied = 3;
 constexpr std::size_t kPartBytes = 60;  // shaders/mover_parts.glsl
+/// Places of commands in a buffer of words, and words, as in shaders/busy_blocks.glsl.
+constexpr std::size_t kNearCommand = 0;
+constexpr std::size_t kBusyCommand = 3;
+constexpr std::size_t kCountCommand = 6;
+constexpr std::size_t kPartsCommand = 9;
+constexpr std::size_t kGroundCommand = 12;
+constexpr std::size_t kMotionCommand = 15;
+constexpr std::size_t kBusyWords = 21;
+constexpr std::size_t kBusyWordsOfBlock = 3;
 constexpr GLbitfield kStored = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                                GL_SHADER_STORAGE_BARRIER_BIT;
+
+constexpr GLbitfield kListed = kStored | GL_COMMAND_BARRIER_BIT;
+
+/// Sigma of a cell, in [0, 1]: it averages four px.
+float noiseOf(const MotionField& motion) {
+  return static_cast<float>(motion.noiseLevels() / 255.0 / MotionLayers::kCellPixels);
+}
 
 hal::FrameSize cellsOf(hal::FrameSize full) {
   constexpr int kSide = MotionLayers::kCellPixels;
@@ -57,6 +73,12 @@ struct MotionLayers::State {
       : full(fullSize),
         size(cellsOf(full)),
         compare(library.compute(kShaders + "motion_layers.comp")),
+        compareAtRest(library.compute(kShaders + "motion_layers.comp", {{"AT_REST"}})),
+        listNear(library.compute(kShaders + "motion_layers_near_list.comp")),
+        compareNear(library.compute(kShaders + "motion_layers_near.comp")),
+        listBusy(library.compute(kShaders + "motion_layers_busy_list.comp")),
+        settle(library.compute(kShaders + "motion_layers_settle.comp")),
+        settleAtRest(library.compute(kShaders + "motion_layers_settle.comp", {{"AT_REST"}})),
         findGround(library.compute(kShaders + "motion_layers_ground.comp")),
         findEdges(library.compute(kShaders + "mover_edges.comp")),
         findMotion(library.compute(kShaders + "mover_motion.comp")),
@@ -77,9 +99,14 @@ struct MotionLayers::State {
         normalFlow(TextureFormat::kRgba16f, blocksOfAll(size)),
         moverMotion(TextureFormat::kRgba16f, blocksOfAll(size)),
         tally(kTallied * kTurns * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
+        busy(sizeof(std::uint32_t) *
+                 (kBusyWords +
+                  kBusyWordsOfBlock * static_cast<std::size_t>(blocksOf(size).pixels())),
+             gpu::BufferUsage::kDynamic),
         noIds(TextureFormat::kR32ui, {1, 1}),
         noMotion(TextureFormat::kRgba16f, {1, 1}) {
     tally.write(std::vector<std::byte>(tally.sizeBytes()));
+    busy.write(std::vector<std::byte>(busy.sizeBytes()));
     for (std::size_t i = 0; i < 2; ++i) {
       pictures.at(i) = {TextureFormat::kRgba8, size, TextureFilter::kLinear};
       labels.at(i) = {TextureFormat::kRgba16f, size, TextureFilter::kLinear};
@@ -91,6 +118,12 @@ struct MotionLayers::State {
   hal::FrameSize full;
   hal::FrameSize size;
   gpu::Program compare;
+  gpu::Program compareAtRest;
+  gpu::Program listNear;
+  gpu::Program compareNear;
+  gpu::Program listBusy;
+  gpu::Program settle;
+  gpu::Program settleAtRest;
   gpu::Program findGround;
   gpu::Program findEdges;
   gpu::Program findMotion;
@@ -114,6 +147,7 @@ struct MotionLayers::State {
   std::array<gpu::Texture, 2> shares;
   std::array<gpu::Texture, 2> backgrounds;
   gpu::Buffer tally;
+  gpu::Buffer busy;  // shaders/busy_blocks.glsl
   gpu::Texture noIds;
   gpu::Texture noMotion;
   std::size_t now = 0;  // which of the two are this frame's
@@ -129,22 +163,39 @@ struct MotionLayers::State {
   hal::Duration sinceFirst{0};  // since the first frame
 
   glm::ivec2 cells() const { return {size.width, size.height}; }
+  glm::ivec2 blocks() const { return {numbers.size().width, numbers.size().height}; }
   void forgetFront() {
     hasFront = false;
     front.reset();
+  }
+  /// Whether the motion of surfaces since the last frame is known.
+  bool knowsSurfaces(const scene::ArFrame& frame, const MotionField& motion) const {
+    return frame.motion && motion.follows() && frame.motion->sinceSequence == last;
   }
   /// Binds what shaders/motion_layers.glsl reads. Precondition: the program is in use.
   void bindBackground(gpu::Program& program, const scene::ArFrame& frame,
                       const MotionField& motion) const;
   gpu::Program& begin(gpu::Program& program, const scene::ArFrame& frame, const MotionField& motion,
                       float stepSeconds) const;
+  /// Fills what both of the passes read that compare cells with the past.
+  gpu::Program& beginToCompare(gpu::Program& program, const scene::ArFrame& frame,
+                               const MotionField& motion, float stepSeconds);
+  /// Binds the blocks that are listed. Precondition: the program is in use.
+  gpu::Program& bindBusy(gpu::Program& program) const {
+    if (program.hasUniform("turn")) program.set("turn", turn);
+    return program.storage("BusyBlocks", busy).set("grid", blocks());
+  }
+  /// Runs a program over those of a list, or as often as follows from it.
+  void dispatchBusy(gpu::Program& program, std::size_t command) const {
+    program.dispatchIndirect(busy, command * sizeof(std::uint32_t), kStored);
+  }
   /// Which mover each cell of this frame's labels belongs to.
   void tellApart(const scene::ArFrame& frame, const MotionField& motion, float motionScale);
 };
 
 void MotionLayers::State::bindBackground(gpu::Program& program, const scene::ArFrame& frame,
                                          const MotionField& motion) const {
-  const bool hasSurfaces = frame.motion && motion.follows() && frame.motion->sinceSequence == last;
+  const bool hasSurfaces = knowsSurfaces(frame, motion);
   program.texture("ids", frame.hasObjects ? *frame.ids : noIds)
       .texture("surfaceMotion", hasSurfaces ? *frame.motion->texture : noMotion)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
@@ -159,49 +210,60 @@ gpu::Program& MotionLayers::State::begin(gpu::Program& program, const scene::ArF
   program.use();
   motion.bind(program);
   bindBackground(program, frame, motion);
-  return program.storage("Tally", tally)
+  return program.storage("Tally", tally).set("turn", turn).set("stepSeconds", stepSeconds);
+}
+
+gpu::Program& MotionLayers::State::beginToCompare(gpu::Program& program,
+                                                  const scene::ArFrame& frame,
+                                                  const MotionField& motion, float stepSeconds) {
+  const std::size_t before = 1 - now;
+  begin(program, frame, motion, stepSeconds);
+  return bindBusy(program)
+      .texture("picture", frame.camera())
+      .texture("lastPicture", pictures.at(before))
+      .texture("background", backgrounds.at(before))
+      .texture("labels", labels.at(before))
+      .texture("motion", motion.backward())
       .set("hasPast", hasPast ? 1 : 0)
-      .set("turn", turn)
-      .set("stepSeconds", stepSeconds);
+      .set("noise", noiseOf(motion))
+      .image("candidates", candidates, ImageAccess::kWrite)
+      .image("evidence", evidence, ImageAccess::kWrite);
 }
 
 void MotionLayers::State::tellApart(const scene::ArFrame& frame, const MotionField& motion,
                                     float motionScale) {
   const std::size_t before = 1 - now;
-  const hal::FrameSize blockSize = numbers.size();
-  const glm::ivec2 blocks(blockSize.width, blockSize.height);
   motion.bind(carry.use());
   bindBackground(carry, frame, motion);
-  carry.texture("labels", labels.at(now))
+  bindBusy(carry)
+      .texture("labels", labels.at(now))
       .texture("picture", pictures.at(now))
       .texture("lastPicture", pictures.at(before))
       .texture("moverShares", shares.at(before))
       .texture("moverMotion", moverMotion)
-      .set("hasPast", hasPast ? 1 : 0)
       .set("motionScale", motionScale)
       .set("reach", 1)
-      .image("carried", carried, ImageAccess::kWrite)
-      .dispatch(cells(), kStored);
-  countParts.use()
+      .image("carried", carried, ImageAccess::kWrite);
+  dispatchBusy(carry, kBusyCommand);
+  bindBusy(countParts.use())
       .texture("labels", labels.at(now))
       .texture("carried", carried)
-      .storage("Blocks", parts)
-      .set("grid", blocks)
-      .dispatch(blocks, kStored);
+      .storage("Blocks", parts);
+  dispatchBusy(countParts, kCountCommand);
   findParts.use()
       .texture("moverMotion", moverMotion)
       .storage("Blocks", parts)
-      .set("grid", blocks)
-      .image("numbers", numbers, ImageAccess::kWrite)
-      .dispatch({1, 1}, kStored);
-  number.use()
+      .set("grid", blocks())
+      .image("numbers", numbers, ImageAccess::kWrite);
+  dispatchBusy(findParts, kPartsCommand);
+  bindBusy(number.use())
       .texture("labels", labels.at(now))
       .texture("picture", pictures.at(now))
       .texture("carried", carried)
       .texture("numbers", numbers)
       .set("reach", 1)
-      .image("shares", shares.at(now), ImageAccess::kWrite)
-      .dispatch(cells(), kStored);
+      .image("shares", shares.at(now), ImageAccess::kWrite);
+  dispatchBusy(number, kBusyCommand);
 }
 
 MotionLayers::MotionLayers(const gpu::ShaderLibrary& library, hal::FrameSize full)
@@ -225,31 +287,40 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
   const std::size_t before = s.now;
   s.now = 1 - s.now;
   s.turn = (s.turn + 1) % kTurns;
-  // A cell averages four px.
-  const double noise = motion.noiseLevels() / 255.0 / kCellPixels;
-  s.begin(s.compare, frame, motion, step)
-      .texture("picture", frame.camera())
-      .texture("lastPicture", s.pictures.at(before))
-      .texture("background", s.backgrounds.at(before))
-      .texture("labels", s.labels.at(before))
-      .texture("motion", motion.backward())
-      .texture("moverMotion", s.moverMotion)
-      .texture("moverShares", s.shares.at(before))
-      .set("noise", static_cast<float>(noise))
-      .set("motionScale", motionScale)
-      .image("candidates", s.candidates, ImageAccess::kWrite)
-      .image("evidence", s.evidence, ImageAccess::kWrite)
+  const bool isAtRest = motion.isStanding() && !frame.hasObjects && !s.knowsSurfaces(frame, motion);
+  s.beginToCompare(isAtRest ? s.compareAtRest : s.compare, frame, motion, step)
       .image("pictureNow", s.pictures.at(s.now), ImageAccess::kWrite)
       .dispatch(s.cells(), kStored);
+  s.bindBusy(s.listNear.use()).texture("moverMotion", s.moverMotion).dispatch(s.blocks(), kListed);
+  s.beginToCompare(s.compareNear, frame, motion, step)
+      .texture("moverMotion", s.moverMotion)
+      .texture("moverShares", s.shares.at(before))
+      .set("motionScale", motionScale);
+  s.dispatchBusy(s.compareNear, kNearCommand);
+  s.bindBusy(s.listBusy.use()).storage("Blocks", s.parts).dispatch(s.blocks(), kListed);
   s.findGround.use()
       .storage("Tally", s.tally)
       .set("turn", s.turn)
       .texture("candidates", s.candidates)
       .texture("evidence", s.evidence)
       .texture("picture", s.pictures.at(s.now))
-      .image("ground", s.ground, ImageAccess::kWrite)
-      .dispatch({s.ground.size().width, s.ground.size().height}, kStored);
-  s.begin(s.join, frame, motion, step)
+      .image("ground", s.ground, ImageAccess::kWrite);
+  s.dispatchBusy(s.findGround, kGroundCommand);
+  gpu::Program& settle = isAtRest ? s.settleAtRest : s.settle;
+  s.begin(settle, frame, motion, step);
+  s.bindBusy(settle)
+      .set("hasPast", s.hasPast ? 1 : 0)
+      .texture("evidence", s.evidence)
+      .texture("picture", s.pictures.at(s.now))
+      .texture("background", s.backgrounds.at(before))
+      .set("freshSeconds", kFreshSeconds)
+      .image("labels", s.labels.at(s.now), ImageAccess::kWrite)
+      .image("backgroundNow", s.backgrounds.at(s.now), ImageAccess::kWrite)
+      .image("carried", s.carried, ImageAccess::kWrite)
+      .image("shares", s.shares.at(s.now), ImageAccess::kWrite)
+      .dispatch(s.cells(), kStored);
+  s.begin(s.join, frame, motion, step);
+  s.bindBusy(s.join)
       .texture("ground", s.ground)
       .texture("candidates", s.candidates)
       .texture("evidence", s.evidence)
@@ -262,12 +333,11 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .set("restSeconds", static_cast<float>(hal::toSeconds(options.rest)))
       .set("freshSeconds", kFreshSeconds)
       .set("reach", 1)
-      .set("noise", static_cast<float>(noise))
+      .set("noise", noiseOf(motion))
       .image("labels", s.labels.at(s.now), ImageAccess::kWrite)
-      .image("backgroundNow", s.backgrounds.at(s.now), ImageAccess::kWrite)
-      .dispatch(s.cells(), kStored);
+      .image("backgroundNow", s.backgrounds.at(s.now), ImageAccess::kWrite);
+  s.dispatchBusy(s.join, kBusyCommand);
   s.tellApart(frame, motion, motionScale);
-  const glm::ivec2 blocks(s.numbers.size().width, s.numbers.size().height);
   motion.bindBackward(s.findEdges.use());
   s.bindBackground(s.findEdges, frame, motion);
   s.findEdges.texture("moverShares", s.shares.at(s.now))
@@ -275,13 +345,13 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .texture("moverMotion", s.moverMotion)
       .set("motionScale", motionScale)
       .image("normals", s.normals, ImageAccess::kWrite)
-      .image("normalFlow", s.normalFlow, ImageAccess::kWrite)
-      .dispatch(blocks, kStored);
-  s.findMotion.use()
+      .image("normalFlow", s.normalFlow, ImageAccess::kWrite);
+  s.dispatchBusy(s.findEdges, kMotionCommand);
+  s.bindBusy(s.findMotion.use())
       .texture("normals", s.normals)
       .texture("normalFlow", s.normalFlow)
-      .image("moverMotion", s.moverMotion, ImageAccess::kWrite)
-      .dispatch(blocks, kStored);
+      .image("moverMotion", s.moverMotion, ImageAccess::kWrite);
+  s.dispatchBusy(s.findMotion, kMotionCommand);
   if (frame.hasObjects) {
     s.front.update(frame, s.labels.at(s.now), s.shares.at(s.now), s.hasPast && motion.isStanding(),
                    step);

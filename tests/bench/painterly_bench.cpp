@@ -57,7 +57,10 @@ scene::Scene sceneOf(hal::FrameSize size, Shown shown) {
 struct Bench {
   Bench(hal::FrameSize size, const char* style, gpu::PassTiming timing,
         Shown shown = Shown::kNothing)
-      : frames(bench::workbenchFilm(size, kFrames)),
+      : Bench(bench::workbenchFilm(size, kFrames), size, style, timing, shown) {}
+  Bench(std::vector<hal::CapturedFrame> film, hal::FrameSize size, const char* style,
+        gpu::PassTiming timing, Shown shown)
+      : frames(std::move(film)),
         painter({.pictureSize = size,
                  .scene = sceneOf(size, shown),
                  .style = style,
@@ -154,6 +157,26 @@ void stages(benchmark::State& state, const char* style, Shown shown = Shown::kNo
   }
 }
 
+/// What telling movers apart costs, by its passes, in a shot from a frame on.
+void layers(benchmark::State& state, hal::SyntheticShot shot, std::uint64_t first) {
+  Bench bench(bench::workbenchFilm(sizeOf(state), kFrames, shot, first), sizeOf(state), "painterly",
+              gpu::PassTiming::kFences, Shown::kNothing);
+  std::map<std::string, double, std::less<>> before;
+  const auto passes = [&](auto each) {
+    for (const gpu::PassTime& pass : bench.painter.passTimes()) {
+      if (!beginsWithOneOf(pass.pass, {"marks: motion_layers", "marks: mover_"})) continue;
+      each(pass.pass, std::chrono::duration<double, std::milli>(pass.total).count());
+    }
+  };
+  passes([&](const std::string& pass, double ms) { before[pass] = ms; });
+  for ([[maybe_unused]] auto _ : state) bench.paint();
+  passes([&](const std::string& pass, double total) {
+    const double ms = (total - before[pass]) / static_cast<double>(state.iterations());
+    state.counters[pass + " ms"] = ms;
+    state.counters["= layers ms"] += ms;
+  });
+}
+
 void stylization(benchmark::State& state) {
   std::vector<cv::Mat> frames;
   for (const hal::CapturedFrame& each : bench::workbenchFilm(sizeOf(state), kFrames)) {
@@ -216,6 +239,15 @@ BENCHMARK_CAPTURE(change, plan, "stroke_size", "4", "5")
     ->Apply(atOneSize);
 BENCHMARK(start)->Name("painterly/start")->Apply(atOneSize);
 BENCHMARK_CAPTURE(stages, painterly, "painterly")->Name("painterly/stages")->Apply(atSizes);
+BENCHMARK_CAPTURE(layers, still, hal::SyntheticShot::kStill, 0)
+    ->Name("painterly/layers/still")
+    ->Apply(atOneSize);
+BENCHMARK_CAPTURE(layers, visitors, hal::SyntheticShot::kVisitors, 90)
+    ->Name("painterly/layers/visitors")
+    ->Apply(atOneSize);
+BENCHMARK_CAPTURE(layers, walkaround, hal::SyntheticShot::kWalkaround, 0)
+    ->Name("painterly/layers/walkaround")
+    ->Apply(atOneSize);
 BENCHMARK(stylization)->Name("OpenCV/stylization")->Apply(atSizes);
 
 }  // namespace

@@ -12,15 +12,17 @@
 
 namespace pleinair::bench {
 
-/// The workbench's first frames, in memory.
-inline std::vector<hal::CapturedFrame> workbenchFilm(hal::FrameSize size, std::uint64_t frames) {
+/// Frames of the workbench from `first` on, in memory.
+inline std::vector<hal::CapturedFrame> workbenchFilm(
+    hal::FrameSize size, std::uint64_t frames,
+    hal::SyntheticShot shot = hal::SyntheticShot::kWalkaround, std::uint64_t first = 0) {
   hal::SteppedClock clock;
-  hal::SyntheticCamera camera({.size = size, .frameCount = frames}, clock);
+  hal::SyntheticCamera camera({.size = size, .frameCount = first + frames, .shot = shot}, clock);
   hal::orThrow(camera.start({}));
   std::vector<hal::CapturedFrame> film;
-  for (std::uint64_t i = 0; i < frames; ++i) {
+  for (std::uint64_t i = 0; i < first + frames; ++i) {
     hal::NextFrame next = camera.next(hal::TimePoint::max());
-    film.push_back(std::get<hal::CapturedFrame>(std::move(next)));
+    if (i >= first) film.push_back(std::get<hal::CapturedFrame>(std::move(next)));
   }
   camera.stop();
   return film;

@@ -1,5 +1,6 @@
 // Purpose: what the passes of marks::MotionLayers share: where a place of the background was in the
 //          previous frame, and by how much a colour is outside of a range.
+// Defines: AT_REST: all of the background is where it was, and no model is known.
 // Inputs:  image_motion.glsl's, of which only the homography is used; fullSize; isStanding: whether
 //          the homography is the identity; ids if hasObjects, surfaceMotion (ArFrame::motion) if
 //          hasSurfaces, and their pixelsOfFull.
@@ -19,6 +20,11 @@ uniform highp sampler2D surfaceMotion;
 uniform highp usampler2D ids;
 uniform vec2 pixelsOfFull;
 
+#ifdef AT_REST
+vec2 pictureShift(vec2 px) { return vec2(0.0); }
+vec2 backgroundShift(vec2 px) { return vec2(0.0); }
+uint objectAt(vec2 px) { return 0u; }
+#else
 // The displacement of most of the image since the previous frame, from there to px.
 vec2 pictureShift(vec2 px) { return isStanding ? vec2(0.0) : -byPicture(px, true).displacement; }
 
@@ -41,6 +47,16 @@ vec2 backgroundShift(vec2 px) {
   float error = surface.z / pixelsOfFull.x;
   float pictureError = known.z == 0.0 ? kUnknownError : known.w;
   return error < pictureError || distance(moved, shift) > 2.5 * error ? moved : shift;
+}
+#endif
+
+// What a texture of cells had at a place of the previous frame.
+vec4 pastAt(highp sampler2D cells, vec2 px) {
+#ifdef AT_REST
+  return texelFetch(cells, ivec2(px / kLayerCellPixels), 0);
+#else
+  return textureLod(cells, inLayers(cells, px), 0.0);
+#endif
 }
 
 bool isInPicture(vec2 px) {

@@ -1,8 +1,9 @@
 // Purpose: decides which cells belong to movers, from all that motion_layers.comp found around
-//          each, and adds the others to the background (marks/motion_layers.h).
+//          each, and adds the others to the background (marks/motion_layers.h), in the blocks where
+//          there is other content.
 // Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's; candidates, evidence
 //          (motion_layers.comp); ground (motion_layers_ground.comp); picture: this frame's, in
-//          cells; background: the previous frame's, if hasPast; restSeconds: after so long a mover
+//          cells; background: the previous frame's; restSeconds: after so long a mover
 //          that rests joins the background, frontRestSeconds: if it is before a model; front: the
 //          previous frame's (front_movers.comp), if hasFront; isDoubted: what is remembered may be
 //          a mover that stood there when the camera began to look; freshSeconds: freshness falls to 0
@@ -10,13 +11,14 @@
 // Outputs: labels RGBA16F: 1 on movers, else 0; freshness: 1 where the label has just changed,
 //          falling to 0; rest and maturity, s, the latter below 0 where a mover has left.
 //          backgroundNow RGBA16F: its mean colour, and the frames in the mean, 0 if it was never
-//          seen. One invocation per cell.
+//          seen. A group of invocations per block of the second list of busy_blocks.glsl.
 // Precision: highp.
-#include "pipeline/marks/shaders/layer_blocks.glsl"
+#include "pipeline/marks/shaders/background_mean.glsl"
+#include "pipeline/marks/shaders/busy_blocks.glsl"
 #include "pipeline/marks/shaders/motion_layers.glsl"
 #include "pipeline/marks/shaders/motion_layers_tally.glsl"
 #include "pipeline/marks/shaders/structure.glsl"
-layout(local_size_x = 16, local_size_y = 4) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D labels;
 layout(rgba16f, binding = 1) writeonly uniform highp image2D backgroundNow;
 uniform highp sampler2D candidates;
@@ -25,7 +27,6 @@ uniform highp sampler2D picture;
 uniform highp sampler2D background;
 uniform highp sampler2D ground;
 uniform highp sampler2D front;
-uniform bool hasPast;
 uniform bool hasFront;
 uniform bool isDoubted;
 uniform float frontRestSeconds;
@@ -41,8 +42,6 @@ const float kTentative = 0.7;  // s: what has changed once and then rests is no 
 const float kLeastRest = 0.08;  // s, of what may have been uncovered
 const float kRestingChange = 0.05;
 const float kMovingRestingChange = 0.3;  // while the camera moves: its picture trembles
-const float kFrames = 30.0;
-const float kMovingFrames = 4.0;  // while the camera moves: each frame's interpolation blurs
 const float kMostOthers = 0.5;  // of the picture: if more is other content, the light has changed
 const float kLeastOther = 0.15;
 const float kLikelier = 0.06;  // of colour: uncovered rather than covered
@@ -193,23 +192,14 @@ bool isUnlikeInHole(ivec2 cell, ivec2 size) {
 }
 
 void main() {
-  ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 block = blockOf(busyWords[busyAt(int(gl_WorkGroupID.x))]);
+  ivec2 cell = block * kLayerBlock + ivec2(gl_LocalInvocationID.xy);
   ivec2 size = imageSize(labels);
-  if (cell == ivec2(0)) {
-    otherCells[1u - turn] = 0u;
-    changedBlocks[1u - turn] = 0u;
-    keptBlocks[1u - turn] = 0u;
-  }
   if (any(greaterThanEqual(cell, size))) return;
   vec2 px = (vec2(cell) + 0.5) * kLayerCellPixels;
   vec2 from = px - backgroundShift(px);
   vec3 now = texelFetch(picture, cell, 0).rgb;
   vec4 past = texelFetch(evidence, cell, 0);
-  if (!hasPast) {
-    imageStore(labels, cell, vec4(0.0));
-    imageStore(backgroundNow, cell, vec4(now, 1.0));
-    return;
-  }
   vec4 own = texelFetch(candidates, cell, 0);
   bool isAnother = past.r < 0.0;
   vec4 known = isInPicture(from) && !isAnother ? textureLod(background, inLayers(background, from), 0.0)
@@ -279,8 +269,7 @@ void main() {
   bool isBeside = others > 0.08 && hasCause && !isLight;
   if (!isMover && (known.a < 0.5 || !isBeside)) {
     float most = isStanding ? kFrames : kMovingFrames;
-    float frames = isLight && own.r > 0.15 ? 1.0 : min(floor(known.a + 0.5) + 1.0, most);
-    known = vec4(mix(known.rgb, now, 1.0 / frames), frames);
+    known = withColour(known, now, isLight && own.r > 0.15 ? 1.0 : framesWith(known.a, most));
   }
   imageStore(backgroundNow, cell, known);
 }

@@ -4,12 +4,15 @@
 // Inputs:  normals, normalFlow (mover_edges.comp).
 // Outputs: moverMotion RGBA16F: displacement since the previous frame, less the background's (px of
 //          the full image), times weight, and the weight, 0 where the mover is not near; the movers'
-//          blocks are one above the other. One invocation per block.
+//          blocks are one above the other. The highest mover of busy_blocks.glsl. One invocation per
+//          block.
 // Precision: highp.
+#include "pipeline/marks/shaders/busy_blocks.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D moverMotion;
 uniform highp sampler2D normals;
 uniform highp sampler2D normalFlow;
+uniform uint turn;  // as in motion_layers_tally.glsl
 
 const float kEnough = 12.0;  // the smaller eigenvalue: some edges of both directions
 const float kBalance = 0.1;  // the smaller eigenvalue, in parts of the larger one
@@ -88,5 +91,6 @@ void main() {
     vec4 motion = vec4(0.0);
     if ((present & (1 << i)) != 0) motion = motionAt(block, size, row);
     imageStore(moverMotion, ivec2(block.x, row + block.y), motion);
+    if (motion.z > 0.0) atomicMax(busyWords[kHighestMover + int(turn)], uint(i + 1));
   }
 }

@@ -2,11 +2,12 @@
 //          around it of its colour have, or that of its part.
 // Inputs:  labels, picture: this frame's, in cells; carried (mover_carry.comp); numbers
 //          (mover_parts.comp).
-// Outputs: shares RGBA8: 1 for the mover, 1 to 3. One invocation per cell.
+// Outputs: shares RGBA8: 1 for the mover, 1 to 3. A group of invocations per block of the second
+//          list of busy_blocks.glsl; elsewhere it is 0 (motion_layers_settle.comp).
 // Precision: highp.
+#include "pipeline/marks/shaders/busy_blocks.glsl"
 #include "pipeline/marks/shaders/colour_difference.glsl"
-#include "pipeline/marks/shaders/layer_blocks.glsl"
-layout(local_size_x = 16, local_size_y = 4) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba8, binding = 0) writeonly uniform highp image2D shares;
 uniform highp sampler2D labels;
 uniform highp sampler2D picture;
@@ -19,14 +20,12 @@ const int kFarthest = 8;    // cells
 const float kEnough = 0.5;  // of votes: fewer are of cells of other colours
 
 void main() {
-  ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 block = blockOf(busyWords[busyAt(int(gl_WorkGroupID.x))]);
+  ivec2 cell = block * kLayerBlock + ivec2(gl_LocalInvocationID.xy);
   ivec2 size = imageSize(shares);
   if (any(greaterThanEqual(cell, size))) return;
-  if (texelFetch(labels, cell, 0).r < 0.5) {
-    imageStore(shares, cell, vec4(0.0));
-    return;
-  }
-  vec4 part = floor(255.0 * texelFetch(numbers, cell / kLayerBlock, 0) + 0.5);
+  if (texelFetch(labels, cell, 0).r < 0.5) return;
+  vec4 part = floor(255.0 * texelFetch(numbers, block, 0) + 0.5);
   vec3 now = texelFetch(picture, cell, 0).rgb;
   vec3 votes = vec3(0.0);
   for (int stride = 1; stride <= kFarthest && max(votes.x, max(votes.y, votes.z)) < kEnough; stride *= 2) {

@@ -1,21 +1,20 @@
 // Purpose: counts the cells of each mover in blocks.
 // Inputs:  labels: this frame's; carried (mover_carry.comp).
-// Outputs: blocks (mover_parts.glsl): each its own part. One invocation per block of kLayerBlock²
-//          cells.
+// Outputs: blocks (mover_parts.glsl): each its own part. One invocation per block of the second list of
+//          busy_blocks.glsl.
 // Precision: highp.
-#include "pipeline/marks/shaders/layer_blocks.glsl"
+#include "pipeline/marks/shaders/busy_blocks.glsl"
 #include "pipeline/marks/shaders/mover_parts.glsl"
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 64) in;
 layout(std430, binding = 0) writeonly buffer Blocks { MoverBlock blocks[]; };
 uniform highp sampler2D labels;
 uniform highp sampler2D carried;
-uniform ivec2 grid;
 
 const int kStep = 2;  // cells: every second one is counted
 
 void main() {
-  ivec2 block = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(block, grid))) return;
+  if (gl_GlobalInvocationID.x >= busyWords[kBusyCommand]) return;
+  ivec2 block = blockOf(busyWords[busyAt(int(gl_GlobalInvocationID.x))]);
   ivec2 size = textureSize(labels, 0);
   uvec4 counts = uvec4(0u);
   bool isAny = false;
@@ -30,8 +29,8 @@ void main() {
     }
   }
   int index = block.y * grid.x + block.x;
-  blocks[index].parent = isAny ? uint(index) : kNoPart;
   if (!isAny) return;
+  blocks[index].parent = uint(index);
   for (int i = 0; i < 4; ++i) blocks[index].counts[i] = counts[i];
   for (int i = 0; i < 6; ++i) blocks[index].motion[i] = 0;
   blocks[index].low = uint(block.y);

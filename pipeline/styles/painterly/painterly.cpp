@@ -307,7 +307,7 @@ void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyP
                           .gloss = static_cast<float>(p.gloss)};
   const StrokeClip clipped{.borders = clip,
                            .picture = &reduced.whole(kClipHalvings),
-                           .colour = static_cast<float>(p.colourClip),
+                           .colour = p.coherence < 1.0 ? static_cast<float>(p.colourClip) : 0.0F,
                            .byLuma = mixtures.has_value()};
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
     const Texture& brush = brushes.brush(p.brush, texelsOf(painting->plan, i));

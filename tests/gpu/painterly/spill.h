@@ -30,6 +30,7 @@ inline config::ParameterValues spilling(config::ParameterValues values, Paramete
                                                   {"saturation_jitter", "0"},
                                                   {"value_jitter", "0"},
                                                   {"wander", "1"},
+                                                  {"colour_clip", "0"},
                                                   {"colour_threshold", "1"},
                                                   {"detail", "0.01"}},
                                     more}) {

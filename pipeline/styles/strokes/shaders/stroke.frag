@@ -1,7 +1,8 @@
 // Purpose: the paint of a brush mark and its thickness.
 // Defines: BUMPED: each stroke is lit by itself. CLIPPED: for a frame with models: no paint beyond
 //          the border of what it lies on.
-// Inputs, outputs: stroke_mark.glsl's; colour_clip.glsl's; BUMPED: stroke_bump.glsl's; CLIPPED: stroke_clip.glsl's.
+// Inputs, outputs: stroke_mark.glsl's; colour_clip.glsl's; BUMPED: stroke_bump.glsl's; CLIPPED:
+//          stroke_clip.glsl's.
 // Precision: as there.
 #include "pipeline/styles/strokes/shaders/colour_clip.glsl"
 #include "pipeline/styles/strokes/shaders/stroke_mark.glsl"
@@ -16,13 +17,18 @@ void main() {
   vec2 place = brushPlace();
   vec2 texel = markAt(place);
   vec3 rgb = pigment(texel.g);
-  float cover = paint.a * texel.r * shareOfColour(paint.rgb);
+  float left = shareOfColour(paint.rgb);
+#ifdef CLIPPED
+  Within share = within();
+  // The colour of a mover's border is mixed of both sides', as their paint will be.
+  if (share.isMixed) left = 1.0;
+#endif
+  float cover = paint.a * texel.r * left;
 #ifdef BUMPED
   rgb = bumped(rgb, place);
 #endif
   float body = cover;
 #ifdef CLIPPED
-  Within share = within();
   cover *= share.toBeMixed;
   body *= share.smoothly;
 #endif

@@ -1,7 +1,8 @@
 // Purpose: keeps a stroke's paint inside the border of what it lies on (thesis §5.5).
 // Inputs:  borders (borders.frag); label: the stroke's.
 // Outputs: the share of a fragment that the stroke may paint, in [0, 1]: smooth, and for paint of which
-//          mover_border.glsl mixes both sides afterwards: at a mover's border all or nothing.
+//          mover_border.glsl mixes both sides afterwards: at a mover's border all or nothing; and
+//          whether it is such a border.
 // Precision: integers.
 #include "pipeline/marks/shaders/stroke_border.glsl"
 uniform usampler2D borders;
@@ -10,6 +11,7 @@ flat in uint label;
 struct Within {
   float smoothly;
   float toBeMixed;
+  bool isMixed;
 };
 
 Within within() {
@@ -20,5 +22,6 @@ Within within() {
   bool mayOwn = mayCover(label, ownOf(border));
   // Both, where the stroke has no segment and may cover either.
   float covered = min((mayOwn ? ofOwn : 0.0) + (mayCover(label, otherOf(border)) ? ofOther : 0.0), 1.0);
-  return Within(covered, isMoverBorder(border) ? (mayOwn ? 1.0 : 0.0) : covered);
+  bool isMixed = isMoverBorder(border);
+  return Within(covered, isMixed ? (mayOwn ? 1.0 : 0.0) : covered, isMixed);
 }

@@ -1,0 +1,31 @@
+// Purpose: the blocks of cells in which anything differs from the background or moves, which the
+//          costly passes of marks::MotionLayers are dispatched for (motion_layers_near_list.comp,
+//          motion_layers_busy_list.comp); all others remain background.
+// Inputs:  grid: blocks; layer_blocks.glsl's.
+// Outputs: functions. The buffer: commands for glDispatchComputeIndirect (x, y, z), then three words
+//          a block: its flags, and two lists of blocks.
+// Precision: integers.
+#include "pipeline/marks/shaders/layer_blocks.glsl"
+const uint kMayBeMover = 1u;  // flags: a cell may be a mover's, if one is near
+const uint kIsNear = 2u;      // a cell moves, or was a mover's
+const uint kIsBusy = 4u;      // a cell is other content, or was a mover's
+
+// Words of commands, as in motion_layers.cpp.
+const int kNearCommand = 0;    // a group for each block of the first list
+const int kBusyCommand = 3;    // a group for each block of the second list
+const int kCountCommand = 6;   // an invocation for each block of the second list
+const int kPartsCommand = 9;   // one group, if there is a busy block
+const int kGroundCommand = 12;  // an invocation for each block of the picture, if there is a busy one
+const int kMotionCommand = 15;  // the same, or if there was one in the previous frame
+const int kWasBusy = 18;       // the blocks that were busy in the previous frame
+const int kHighestMover = 19;  // two, in turns: the highest number of a mover that has a motion
+const int kBusyWords = 21;
+
+layout(std430, binding = 1) buffer BusyBlocks { uint busyWords[]; };
+uniform ivec2 grid;
+
+int blockCount() { return grid.x * grid.y; }
+int flagsAt(ivec2 block) { return kBusyWords + block.y * grid.x + block.x; }
+int nearAt(int index) { return kBusyWords + blockCount() + index; }
+int busyAt(int index) { return kBusyWords + 2 * blockCount() + index; }
+ivec2 blockOf(uint index) { return ivec2(int(index) % grid.x, int(index) / grid.x); }

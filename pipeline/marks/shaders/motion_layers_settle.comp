@@ -1,0 +1,53 @@
+// Purpose: adds each cell to the background, as if no other content were near; where there is, the
+//          passes that follow write over it. It also ends the turn of what is counted and listed.
+// Defines: motion_layers.glsl's.
+// Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's, busy_blocks.glsl's; evidence
+//          (motion_layers.comp); picture: this frame's, in cells; background: the previous frame's,
+//          if hasPast; freshSeconds: as motion_layers_join.comp's.
+// Outputs: labels, backgroundNow: as motion_layers_join.comp's; carried, shares: 0. One invocation
+//          per cell.
+// Precision: highp.
+#include "pipeline/marks/shaders/background_mean.glsl"
+#include "pipeline/marks/shaders/busy_blocks.glsl"
+#include "pipeline/marks/shaders/motion_layers.glsl"
+#include "pipeline/marks/shaders/motion_layers_tally.glsl"
+layout(local_size_x = 16, local_size_y = 4) in;
+layout(rgba16f, binding = 0) writeonly uniform highp image2D labels;
+layout(rgba16f, binding = 1) writeonly uniform highp image2D backgroundNow;
+layout(rgba8, binding = 2) writeonly uniform highp image2D carried;
+layout(rgba8, binding = 3) writeonly uniform highp image2D shares;
+uniform highp sampler2D evidence;
+uniform highp sampler2D picture;
+uniform highp sampler2D background;
+uniform bool hasPast;
+uniform float freshSeconds;
+
+void main() {
+  ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+  if (cell == ivec2(0)) {
+    otherCells[1u - turn] = 0u;
+    changedBlocks[1u - turn] = 0u;
+    keptBlocks[1u - turn] = 0u;
+    busyWords[kWasBusy] = busyWords[kBusyCommand];
+    busyWords[kHighestMover + int(turn)] = 0u;
+  }
+  if (any(greaterThanEqual(cell, imageSize(labels)))) return;
+  if (all(equal(cell % kLayerBlock, ivec2(0)))) busyWords[flagsAt(cell / kLayerBlock)] = 0u;
+  vec3 now = texelFetch(picture, cell, 0).rgb;
+  imageStore(carried, cell, vec4(0.0));
+  imageStore(shares, cell, vec4(0.0));
+  if (!hasPast) {
+    imageStore(labels, cell, vec4(0.0));
+    imageStore(backgroundNow, cell, vec4(now, 1.0));
+    return;
+  }
+  vec4 past = texelFetch(evidence, cell, 0);
+  vec2 px = (vec2(cell) + 0.5) * kLayerCellPixels;
+  vec2 from = px - backgroundShift(px);
+  vec4 known = vec4(now, 0.0);
+  if (isInPicture(from) && past.r >= 0.0) known = pastAt(background, from);
+  float frames = framesWith(known.a, isStanding ? kFrames : kMovingFrames);
+  imageStore(backgroundNow, cell, withColour(known, now, frames));
+  float fresh = max(past.a - stepSeconds / freshSeconds, 0.0);
+  imageStore(labels, cell, vec4(0.0, fresh, min(past.g + stepSeconds, 0.0), 0.0));
+}
