@@ -121,16 +121,26 @@ void recordDraw(GLenum mode, bool isIndexed, GLsizei vertices, GLuint instances)
   Recorder::instance().run(program, stateOfDraw(program, mode, isIndexed), work);
 }
 
-/// The command that the bound indirect buffer has at an offset: vertices, instances, …
-std::vector<GLuint> indirectCommand(const void* offset) {
-  std::vector<GLuint> command(4);
-  const auto bytes = static_cast<GLsizeiptr>(command.size() * sizeof(GLuint));
-  const void* mapped = glMapBufferRange(GL_DRAW_INDIRECT_BUFFER, reinterpret_cast<GLintptr>(offset),
-                                        bytes, GL_MAP_READ_BIT);
+/// `isListed`: the groups were counted on the GPU.
+void recordDispatch(std::array<GLuint, 3> groups, bool isListed) {
+  const GLuint program = currentProgram();
+  json work = sizesOfDispatch(program);
+  work["groups"] = groups;
+  if (isListed) work["listed"] = true;
+  std::array<GLint, 3> size{};
+  glGetProgramiv(program, GL_COMPUTE_WORK_GROUP_SIZE, size.data());
+  work["group_size"] = size;
+  Recorder::instance().run(program, stateOfDispatch(program), work);
+}
+
+/// The words of the command that the buffer bound to `target` has at an offset.
+template <std::size_t count>
+std::array<GLuint, count> indirectCommand(GLenum target, GLintptr offset) {
+  std::array<GLuint, count> command{};
+  const void* mapped = glMapBufferRange(target, offset, sizeof(command), GL_MAP_READ_BIT);
   if (mapped == nullptr) return command;
-  const auto* words = static_cast<const GLuint*>(mapped);
-  command.assign(words, words + command.size());
-  glUnmapBuffer(GL_DRAW_INDIRECT_BUFFER);
+  std::copy_n(static_cast<const GLuint*>(mapped), count, command.begin());
+  glUnmapBuffer(target);
   return command;
 }
 
@@ -169,21 +179,24 @@ void GL_APIENTRY glDrawElements(GLenum mode, GLsizei count, GLenum type, const v
 }
 
 void GL_APIENTRY glDrawArraysIndirect(GLenum mode, const void* indirect) {
-  const std::vector<GLuint> command = recording::indirectCommand(indirect);
+  const auto command =
+      recording::indirectCommand<4>(GL_DRAW_INDIRECT_BUFFER, reinterpret_cast<GLintptr>(indirect));
   recording::recordDraw(mode, false, static_cast<GLsizei>(command[0]), command[1]);
   static const auto real = recording::next<decltype(&glDrawArraysIndirect)>("glDrawArraysIndirect");
   real(mode, indirect);
 }
 
 void GL_APIENTRY glDispatchCompute(GLuint x, GLuint y, GLuint z) {
-  const GLuint program = recording::currentProgram();
-  nlohmann::json work = recording::sizesOfDispatch(program);
-  work["groups"] = {x, y, z};
-  std::array<GLint, 3> size{};
-  glGetProgramiv(program, GL_COMPUTE_WORK_GROUP_SIZE, size.data());
-  work["group_size"] = size;
-  recording::Recorder::instance().run(program, recording::stateOfDispatch(program), work);
+  recording::recordDispatch({x, y, z}, false);
   static const auto real = recording::next<decltype(&glDispatchCompute)>("glDispatchCompute");
   real(x, y, z);
+}
+
+void GL_APIENTRY glDispatchComputeIndirect(GLintptr indirect) {
+  recording::recordDispatch(recording::indirectCommand<3>(GL_DISPATCH_INDIRECT_BUFFER, indirect),
+                            true);
+  static const auto real =
+      recording::next<decltype(&glDispatchComputeIndirect)>("glDispatchComputeIndirect");
+  real(indirect);
 }
 }

@@ -64,11 +64,15 @@ def _invocations(work):
     return math.prod(work["groups"]) * math.prod(work["group_size"])
 
 
+def _is_along_a_list(work):
+    return "listed" in work or work["groups"][1] * work["group_size"][1] == 1
+
+
 def _texels_read(record, texels):
     """Of a texture, at least and at most: each texel at least once; where neighbours share reads by the cache alone,
     some twice. Dispatches along a list read what is around its members."""
     work = record["work"]
-    if "groups" in work and work["groups"][1] * work["group_size"][1] == 1:
+    if "groups" in work and _is_along_a_list(work):
         count = _invocations(work)
         return min(texels, count), min(2 * texels, LIST_TEXELS * count)
     return texels, 2 * texels
@@ -96,10 +100,13 @@ def _add_dispatch(one, record, share):
     _add(one.invocations["compute"], share * invocations, share * invocations)
     for name, size in work["images"].items():
         access = record["state"]["images"][name][1]
+        moved = _bytes(size)
+        if "listed" in work:
+            moved = min(moved, invocations * size[2])
         if access != 0x88B9:  # GL_WRITE_ONLY
-            _add(one.read, share * _bytes(size), share * _bytes(size))
+            _add(one.read, share * moved, share * moved)
         if access != 0x88B8:  # GL_READ_ONLY
-            _add(one.written, share * _bytes(size), share * _bytes(size))
+            _add(one.written, share * moved, share * moved)
 
 
 def passes_of(short, long, frames):

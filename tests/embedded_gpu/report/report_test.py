@@ -110,6 +110,15 @@ class Costs(unittest.TestCase):
         self.assertEqual(one.read, [4 * 128, 4 * 128 * cost.LIST_TEXELS])
         self.assertEqual(one.invocations["compute"], [128, 128])
 
+    def test_listed_groups_write_only_where_they_are(self):
+        listed = self.dispatch([3, 1, 1], [8, 8, 1])
+        listed["work"]["listed"] = True
+        listed["work"]["images"]["i"] = [640, 480, 4]
+        listed["state"]["images"]["i"] = ["rgba8", 0x88B9]
+        one = cost.passes_of([], [listed], 4)["a: b.comp"]
+        self.assertEqual(one.written, [4 * 192, 4 * 192])
+        self.assertEqual(one.read, [4 * 192, 4 * 192 * cost.LIST_TEXELS])
+
     def test_grids_read_whole_textures(self):
         one = cost.passes_of([], [self.dispatch([10, 30, 1], [16, 4, 1])], 4)["a: b.comp"]
         self.assertEqual(one.read, [4 * 640 * 480, 8 * 640 * 480])
