@@ -92,6 +92,7 @@ struct Watercolor::Passes {
   explicit Passes(const gpu::ShaderLibrary& library)
       : filtered(library),
         tiler(library),
+        gliding(library.fragmentPass(kShaders + "gliding.frag")),
         guide(library.fragmentPass(kShaders + "guide.frag")),
         split(library.compute(kShaders + "split.comp")),
         washes(library.compute(kShaders + "washes.comp")),
@@ -106,6 +107,7 @@ struct Watercolor::Passes {
 
   marks::FilteredFrame filtered;
   CellTiling tiler;
+  gpu::Program gliding;
   gpu::Program guide;
   gpu::Program split;
   gpu::Program washes;
@@ -122,10 +124,11 @@ struct Watercolor::Passes {
 /// The state that belongs to one full size.
 struct Watercolor::Marks {
   Marks(const gpu::ShaderLibrary& library, hal::FrameSize fullSize)
-      : full(fullSize), field(library, full) {}
+      : full(fullSize), field(library, full), gliding(field.backward().size()) {}
 
   hal::FrameSize full;
   marks::MotionField field;
+  WatercolorGliding gliding;
   struct Movers {
     Movers(const gpu::ShaderLibrary& library, hal::FrameSize full)
         : layers(library, full), hiding(library) {}
@@ -206,6 +209,7 @@ const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view v
   marks_->anchors->advance(frame, marks_->field);
   filtered(frame);
   tile(frame, p_.mosaic > 0.0 || view == kMeansView);
+  findGliding();
   paintWashes(frame);
   lastTime_ = frame.captureTime;
   hasPast_ = true;
@@ -292,6 +296,23 @@ void Watercolor::tile(const scene::ArFrame& frame, bool wantsMeans) {
       *marks_->anchors, p_);
 }
 
+/// Finds what moves over the paper.
+void Watercolor::findGliding() {
+  constexpr double kFadeSeconds = 0.12;
+  constexpr float kReferenceWidth = 640.0F;
+  WatercolorGliding& g = marks_->gliding;
+  const marks::MotionField& field = marks_->field;
+  const bool stands = field.isStanding() && step_ > hal::Duration(0);
+  g.latest = 1 - g.latest;
+  passes_->gliding.use()
+      .texture("motion", field.backward())
+      .texture("before", g.masks[1 - g.latest])
+      .set("perSecond", stands ? static_cast<float>(1.0 / hal::toSeconds(step_)) : 0.0F)
+      .set("kept", hasPast_ ? marks::keptAfter(step_, kFadeSeconds) : 0.0F)
+      .set("fullByReference", static_cast<float>(marks_->full.width) / kReferenceWidth)
+      .drawFullscreen(g.targets[g.latest]);
+}
+
 /// Turns the colours of the cells into two smooth layers of pigment.
 void Watercolor::paintWashes(const scene::ArFrame& frame) {
   const WatercolorCanvas& s = *canvas_;
@@ -317,6 +338,7 @@ void Watercolor::paintWashes(const scene::ArFrame& frame) {
       .texture("guide", s.guide)
       .texture("darkPigment", s.darkPigment)
       .texture("lightPigment", s.lightPigment)
+      .texture("gliding", marks_->gliding.now())
       .set("pixelsOfFull", pixelsOfFull_)
       .set("hardness", static_cast<float>(p_.hardness))
       .set("gaps", static_cast<float>(p_.gaps))
@@ -355,6 +377,7 @@ void Watercolor::compose(const scene::ArFrame& frame) {
   pass.texture("tiling", s.tiling)
       .texture("darkLayer", s.darkLayer)
       .texture("lightLayer", s.lightLayer)
+      .texture("gliding", marks_->gliding.now())
       .set("pictureSize", glm::vec2(s.size.width, s.size.height))
       .set("threshold", static_cast<float>(p_.edgeThreshold))
       .set("edgeSoftness", static_cast<float>(p_.edgeSoftness))

@@ -72,6 +72,7 @@ class Watercolor final : public Style {
   void hideModels(const scene::ArFrame& frame);
   void filtered(const scene::ArFrame& frame);
   void tile(const scene::ArFrame& frame, bool wantsMeans);
+  void findGliding();
   void paintWashes(const scene::ArFrame& frame);
   void mixWashes();
   void compose(const scene::ArFrame& frame);

@@ -37,6 +37,19 @@ struct WatercolorCells {
   gpu::Texture ways;    ///< the same
 };
 
+/// What moves over the paper (shaders/gliding.frag), by turns. `size`: that of the motion field.
+struct WatercolorGliding {
+  explicit WatercolorGliding(hal::FrameSize size)
+      : masks{{gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear},
+              {gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear}},
+        targets{gpu::RenderTarget({&masks[0]}), gpu::RenderTarget({&masks[1]})} {}
+  const gpu::Texture& now() const { return masks[latest]; }
+
+  gpu::Texture masks[2];
+  gpu::RenderTarget targets[2];
+  int latest = 0;
+};
+
 /// The textures of one image size. They hold one frame's pixels, and no history.
 struct WatercolorCanvas {
   explicit WatercolorCanvas(hal::FrameSize pictureSize)

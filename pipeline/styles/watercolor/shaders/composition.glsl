@@ -1,6 +1,6 @@
 // Purpose: washes on paper, per pixel: a light wash, a dark one glazed over it where the image is
 //          dark, lines (thesis §3.2.2) and the substrate (§3.5).
-// Inputs:  tiling, darkLayer and lightLayer (layers.frag, LINEAR); substrate.glsl's; pictureSize,
+// Inputs:  tiling, darkLayer and lightLayer (layers.frag), gliding (gliding.frag), all LINEAR; substrate.glsl's; pictureSize,
 //          threshold, and the parameters of the same names (watercolor_parameters.h).
 // Outputs: sRGB-coded colours.
 // Precision: highp for places; less would suffice for colours.
@@ -11,6 +11,7 @@
 uniform highp usampler2D tiling;
 uniform sampler2D darkLayer;
 uniform sampler2D lightLayer;
+uniform sampler2D gliding;
 uniform vec2 pictureSize;
 uniform float threshold;
 uniform float edgeSoftness;
@@ -36,10 +37,11 @@ float lineAt(ivec2 p, float valley) {
   return clamp(edgeDarkness * line * (0.8 + 0.8 * valley), 0.0, 1.0);
 }
 
-// The paint on pixel p.
+// The paint on pixel p. The paper does nothing to paint that glides over it.
 vec3 washAt(ivec2 p, vec4 substrate) {
-  float valley = 0.5 - substrate.r;
-  vec2 at = (vec2(p) + 0.5 + wobble * (substrate.ba - 0.5)) / pictureSize;
+  float stays = 1.0 - texture(gliding, (vec2(p) + 0.5) / pictureSize).r;
+  float valley = stays * (0.5 - substrate.r);
+  vec2 at = (vec2(p) + 0.5 + stays * wobble * (substrate.ba - 0.5)) / pictureSize;
   vec4 dark = texture(darkLayer, at);
   vec4 light = texture(lightLayer, at);
   float place = 2.0 * dark.a - 0.5;
@@ -51,12 +53,12 @@ vec3 washAt(ivec2 p, vec4 substrate) {
   float atRim = hard * smoothstep(0.05, 0.42, place) * glaze;
   vec3 lightDensity = unpackDensity(light.rgb);
   vec3 glazeDensity = unpackDensity(dark.rgb) - lightDensity;
-  vec3 density = lightDensity + glazeDensity * glaze * (1.0 + rim * atRim);
+  vec3 density = lightDensity + glazeDensity * glaze * (1.0 + mix(0.25, 1.0, stays) * rim * atRim);
 
   // Pigment settles in the valleys, less visibly in thick paint; a brush skips the highest grains.
   float thick = lumaOf(density);
   float grains = 2.0 * valley / (1.0 + 0.7 * thick) -
-                 0.5 * smoothstep(0.55, 0.9, substrate.r) * smoothstep(1.0, 2.5, thick);
+                 0.5 * stays * smoothstep(0.55, 0.9, substrate.r) * smoothstep(1.0, 2.5, thick);
   return colourOf(density * max(1.0 + granulation * grains, 0.2));
 }
 
