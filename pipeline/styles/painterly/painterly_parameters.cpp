@@ -174,9 +174,10 @@ support = "paper"
 canvas = 0.06
 relief = 0.25
 gloss = 0
-hue_jitter = 0.012
-saturation_jitter = 0.06
-value_jitter = 0.03
+hue_jitter = 0.03
+saturation_jitter = 0.14
+value_jitter = 0.11
+colour_clip = 0.65
 wash = 1
 warmth = 0.05
 )"},
