@@ -182,24 +182,25 @@ wash = 1
 warmth = 0.05
 )"},
     {"pastel", "dry chalk on toned paper, which shines through", R"(
-stroke_size = 4.2
+stroke_size = 3.1
 length = 7
 layers = 3
 brush = "dry"
 support = "paper"
-tooth = 0.5
-opacity = 0.85
+tooth = 0.8
+opacity = 1
 relief = 0
 gloss = 0
-canvas = 0.2
-wash = 0.5
+canvas = 0.4
+wash = 0.85
 ground_red = 0.62
 ground_green = 0.55
 ground_blue = 0.47
 wander = 0.22
 saturation = 1.25
 hue_jitter = 0.05
-value_jitter = 0.07
+value_jitter = 0.14
+colour_clip = 0.5
 )"},
     {"sketch", "coloured pencils on white paper", R"(
 layers = 2
