@@ -3,7 +3,8 @@
 //          and video for an impressionist effect", 1997, section 2.2: strokes are clipped at edges).
 // Inputs:  picture: reduced; colourClip: by how much, 0: not at all; byLuma: paint of a limited
 //          palette has hues of its own; targetSize: px.
-// Outputs: the share of a stroke's paint that is left at a fragment.
+// Outputs: the share of a stroke's paint that is left at a fragment; `clear`: from no clear difference
+//          to a clear one.
 // Precision: mediump suffices, except for places.
 #include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/marks/shaders/colour_difference.glsl"
@@ -13,14 +14,15 @@ uniform bool byLuma;
 uniform vec2 targetSize;
 
 const vec2 kOtherColour = vec2(0.1, 0.4);  // more than strokes differ at random
+const vec2 kOtherThanCarried = vec2(0.04, 0.22);  // of models and movers: their strokes change more
 
-float shareOfColour(vec3 rgb) {
+float shareOfColour(vec3 rgb, vec2 clear) {
   float share = 1.0;
   // A loop that no invocation enters costs nothing on software renderers.
   for (int i = colourClip > 0.0 ? 0 : 1; i < 1; ++i) {
     vec3 seen = texture(picture, gl_FragCoord.xy / targetSize).rgb;
     vec3 other = byLuma ? vec3(lumaOf(rgb - seen)) : rgb - seen;
-    share -= colourClip * smoothstep(kOtherColour.x, kOtherColour.y, weightedLength(other));
+    share -= colourClip * smoothstep(clear.x, clear.y, weightedLength(other));
   }
   return share;
 }

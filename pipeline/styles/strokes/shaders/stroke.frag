@@ -17,11 +17,13 @@ void main() {
   vec2 place = brushPlace();
   vec2 texel = markAt(place);
   vec3 rgb = pigment(texel.g);
-  float left = shareOfColour(paint.rgb);
 #ifdef CLIPPED
   Within share = within();
+  float left = shareOfColour(paint.rgb, goesByItself(label) ? kOtherThanCarried : kOtherColour);
   // The colour of a mover's border is mixed of both sides', as their paint will be.
   if (share.isMixed) left = 1.0;
+#else
+  float left = shareOfColour(paint.rgb, kOtherColour);
 #endif
   float cover = paint.a * texel.r * left;
 #ifdef BUMPED
