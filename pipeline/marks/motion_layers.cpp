@@ -291,13 +291,13 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
   s.beginToCompare(isAtRest ? s.compareAtRest : s.compare, frame, motion, step)
       .image("pictureNow", s.pictures.at(s.now), ImageAccess::kWrite)
       .dispatch(s.cells(), kStored);
-  s.bindBusy(s.listNear.use()).texture("moverMotion", s.moverMotion).dispatch(s.blocks(), kListed);
+  s.bindBusy(s.listNear.use()).texture("moverMotion", s.moverMotion).dispatch({1, 1}, kListed);
   s.beginToCompare(s.compareNear, frame, motion, step)
       .texture("moverMotion", s.moverMotion)
       .texture("moverShares", s.shares.at(before))
       .set("motionScale", motionScale);
   s.dispatchBusy(s.compareNear, kNearCommand);
-  s.bindBusy(s.listBusy.use()).storage("Blocks", s.parts).dispatch(s.blocks(), kListed);
+  s.bindBusy(s.listBusy.use()).storage("Blocks", s.parts).dispatch({1, 1}, kListed);
   s.findGround.use()
       .storage("Tally", s.tally)
       .set("turn", s.turn)

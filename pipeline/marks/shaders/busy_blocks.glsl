@@ -9,6 +9,8 @@
 const uint kMayBeMover = 1u;  // flags: a cell may be a mover's, if one is near
 const uint kIsNear = 2u;      // a cell moves, or was a mover's
 const uint kIsBusy = 4u;      // a cell is other content, or was a mover's
+const uint kIsOfFirst = 8u;   // the block is in the first list
+const uint kIsOfSecond = 16u;
 
 // Words of commands, as in motion_layers.cpp.
 const int kNearCommand = 0;    // a group for each block of the first list

@@ -21,9 +21,6 @@ const float kLeastLabel = 0.4;
 
 void main() {
   ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-  if (cell == ivec2(0)) {
-    for (int i = 0; i < kWasBusy; i += 3) busyWords[i] = 0u;
-  }
   if (any(greaterThanEqual(cell, imageSize(candidates)))) return;
   Seen seen = seenAt(cell);
   imageStore(pictureNow, cell, vec4(seen.now, seen.thing / 255.0));

@@ -2,11 +2,10 @@
 //          background.
 // Inputs:  busy_blocks.glsl's flags.
 // Outputs: busy_blocks.glsl's second list, and all commands that follow from it; blocks
-//          (mover_parts.glsl): no part. One invocation per block.
+//          (mover_parts.glsl): no part. One group of invocations for all blocks.
 // Precision: integers.
-#include "pipeline/marks/shaders/busy_blocks.glsl"
+#include "pipeline/marks/shaders/block_list.glsl"
 #include "pipeline/marks/shaders/mover_parts.glsl"
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) writeonly buffer Blocks { MoverBlock blocks[]; };
 
 void command(int at, ivec2 groups) {
@@ -15,30 +14,33 @@ void command(int at, ivec2 groups) {
   busyWords[at + 2] = 1u;
 }
 
-void main() {
-  ivec2 block = ivec2(gl_GlobalInvocationID.xy);
-  ivec2 perBlock = (grid + 7) / 8;  // groups of those that take a block each
-  if (block == ivec2(0)) {
-    for (int i = 1; i < 3; ++i) {
-      busyWords[kBusyCommand + i] = 1u;
-      busyWords[kCountCommand + i] = 1u;
-    }
-    if (busyWords[kWasBusy] != 0u) command(kMotionCommand, perBlock);
-  }
-  if (any(greaterThanEqual(block, grid))) return;
-  int number = block.y * grid.x + block.x;
-  blocks[number].parent = kNoPart;
+// The flags of a block and of those beside it.
+uint flagsAround(ivec2 block) {
   uint flags = 0u;
   ivec2 low = max(block - 1, ivec2(0));
   ivec2 high = min(block + 1, grid - 1);
   for (int y = low.y; y <= high.y; ++y) {
     for (int x = low.x; x <= high.x; ++x) flags |= busyWords[flagsAt(ivec2(x, y))];
   }
-  if ((flags & kIsBusy) == 0u) return;
-  uint index = atomicAdd(busyWords[kBusyCommand], 1u);
-  busyWords[busyAt(int(index))] = uint(number);
-  atomicMax(busyWords[kCountCommand], index / 64u + 1u);  // groups of 64
-  command(kPartsCommand, ivec2(1));
-  command(kGroundCommand, perBlock);
-  command(kMotionCommand, perBlock);
+  return flags;
+}
+
+void main() {
+  ivec2 mine = stretch();
+  uint own = 0u;
+  for (int i = mine.x; i < mine.y; ++i) {
+    blocks[i].parent = kNoPart;
+    if ((flagsAround(blockOf(uint(i))) & kIsBusy) == 0u) continue;
+    busyWords[kBusyWords + i] |= kIsOfSecond;
+    ++own;
+  }
+  uint count = list(mine, own, kIsOfSecond, busyAt(0));
+  if (gl_LocalInvocationID.x != 0u) return;
+  ivec2 perBlock = (grid + 7) / 8;  // groups of those that take a block each
+  bool isAny = count != 0u;
+  command(kBusyCommand, ivec2(int(count), 1));
+  command(kCountCommand, ivec2((int(count) + 63) / 64, 1));
+  command(kPartsCommand, ivec2(isAny ? 1 : 0, 1));
+  command(kGroundCommand, isAny ? perBlock : ivec2(0));
+  command(kMotionCommand, isAny || busyWords[kWasBusy] != 0u ? perBlock : ivec2(0));
 }

@@ -1,12 +1,11 @@
 // Purpose: lists the blocks in which movers may carry something: where something moves or was a
 //          mover, or where a cell may be a mover's and one is near.
 // Inputs:  busy_blocks.glsl's flags; mover_motion.glsl's, of the previous frame.
-// Outputs: busy_blocks.glsl's first list, and its command. One invocation per block.
+// Outputs: busy_blocks.glsl's first list, and its command. One group of invocations for all blocks.
 // Precision: highp.
-#include "pipeline/marks/shaders/busy_blocks.glsl"
+#include "pipeline/marks/shaders/block_list.glsl"
 #include "pipeline/marks/shaders/layer_cells.glsl"
 #include "pipeline/marks/shaders/mover_motion.glsl"
-layout(local_size_x = 8, local_size_y = 8) in;
 uniform uint turn;  // as in motion_layers_tally.glsl
 
 // Whether findMoverMotion() may find anything in a block.
@@ -26,17 +25,20 @@ bool isMotionNear(ivec2 block) {
 }
 
 void main() {
-  ivec2 block = ivec2(gl_GlobalInvocationID.xy);
-  if (block == ivec2(0)) {
-    busyWords[kNearCommand + 1] = 1u;
-    busyWords[kNearCommand + 2] = 1u;
+  ivec2 blocks = stretch();
+  uint own = 0u;
+  for (int i = blocks.x; i < blocks.y; ++i) {
+    uint flags = busyWords[kBusyWords + i];
+    bool isNear = (flags & kIsNear) != 0u;
+    bool mayBe = !isNear && (flags & kMayBeMover) != 0u;
+    for (int once = mayBe ? 0 : 1; once < 1; ++once) isNear = isMotionNear(blockOf(uint(i)));
+    if (!isNear) continue;
+    busyWords[kBusyWords + i] = flags | kIsOfFirst;
+    ++own;
   }
-  if (any(greaterThanEqual(block, grid))) return;
-  uint flags = busyWords[flagsAt(block)];
-  bool isNear = (flags & kIsNear) != 0u;
-  bool mayBe = !isNear && (flags & kMayBeMover) != 0u;
-  for (int i = mayBe ? 0 : 1; i < 1; ++i) isNear = isMotionNear(block);
-  if (!isNear) return;
-  uint index = atomicAdd(busyWords[kNearCommand], 1u);
-  busyWords[nearAt(int(index))] = uint(block.y * grid.x + block.x);
+  uint count = list(blocks, own, kIsOfFirst, nearAt(0));
+  if (gl_LocalInvocationID.x != 0u) return;
+  busyWords[kNearCommand] = count;
+  busyWords[kNearCommand + 1] = 1u;
+  busyWords[kNearCommand + 2] = 1u;
 }
