@@ -60,7 +60,8 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
       numberParameter("colour_threshold", &P::colourThreshold, {.min = 0.01, .max = 1},
                       "The colour difference at which a fine stroke ends (thesis §4.4)."),
       numberParameter("colour_clip", &P::colourClip, kPart,
-                      "How much strokes leave out what is of quite another colour, such as eyes."),
+                      "How much strokes leave out what is of quite another colour, such as eyes; most on "
+                      "models and on what moves."),
       numberParameter("cut_off", &P::cutOffDegrees, {.min = 1, .max = 90, .unit = "degrees"},
                       "The turn between two segments at which a fine stroke ends."),
       numberParameter("wander", &P::wander, {.min = 0, .max = 1, .unit = "rad"},
@@ -177,7 +178,6 @@ gloss = 0
 hue_jitter = 0.03
 saturation_jitter = 0.14
 value_jitter = 0.11
-colour_clip = 0.65
 wash = 1
 warmth = 0.05
 )"},
@@ -200,7 +200,6 @@ wander = 0.22
 saturation = 1.25
 hue_jitter = 0.05
 value_jitter = 0.14
-colour_clip = 0.5
 )"},
     {"sketch", "coloured pencils on white paper", R"(
 layers = 2

@@ -1,83 +1,99 @@
-// Strokes leave out what is of quite another colour: small dark things on light ones stay.
+// Strokes leave out what is of quite another colour, those of models and movers most.
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <string>
+#include <cstdint>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "pipeline/gpu/render_target.h"
+#include "pipeline/styles/strokes/brushes.h"
+#include "pipeline/styles/strokes/stroke_drawing.h"
 #include "tests/gpu/painterly/painterly_fixture.h"
+#include "tests/gpu/painterly/strip_fixture.h"
 
 namespace pleinair::styles {
 namespace {
 
 using Pixel = std::array<int, 3>;
 
-constexpr hal::FrameSize kPictureSize{192, 144};
-constexpr int kApart = 24;  // px between spots
+constexpr hal::FrameSize kClipped{96, 96};
 constexpr Pixel kSkin{214, 172, 150};
 constexpr Pixel kEye{62, 48, 44};
+constexpr std::uint32_t kMoverLabel = 4095;
 
-/// Spots like eyes in a face of 70 px: 7 px wide and 5 px high.
-bool isSpot(int x, int y) {
-  const int dx = x % kApart - kApart / 2;
-  const int dy = y % kApart - kApart / 2;
-  return std::hypot(dx / 3.5, dy / 2.5) < 1.0;
-}
-
-/// `spotted`: else all is the ground's colour.
-hal::Image face(bool spotted) {
-  hal::Image image({.pixelFormat = hal::PixelFormat::kRgb8, .size = kPictureSize, .encoding = {}});
-  for (int y = 0; y < kPictureSize.height; ++y) {
-    const auto row = image.row(0, y);
-    for (int x = 0; x < kPictureSize.width; ++x) {
-      const Pixel& pixel = spotted && isSpot(x, y) ? kEye : kSkin;
-      for (std::size_t c = 0; c < 3; ++c) {
-        row[3 * static_cast<std::size_t>(x) + c] = static_cast<std::uint8_t>(pixel.at(c));
-      }
+hal::Image plainPicture(const Pixel& colour, hal::FrameSize size) {
+  hal::Image image({.pixelFormat = hal::PixelFormat::kRgba8, .size = size});
+  for (int y = 0; y < size.height; ++y) {
+    auto* pixel = image.row(0, y).data();
+    for (int x = 0; x < size.width; ++x, pixel += 4) {
+      for (std::size_t c = 0; c < 3; ++c) pixel[c] = static_cast<std::uint8_t>(colour.at(c));
+      pixel[3] = 255;
     }
   }
   return image;
 }
 
-class ColourClip : public PainterlyTest {
+/// A stroke of the skin's colour over an eye, which is 8 px wide.
+class ClippedStroke : public StripTest {
  protected:
-  /// The part of the spots' contrast that is left of them in a painting.
-  double contrastLeft(const std::string& look, const std::string& clip) {
-    Painterly style(library_);
-    style.setParameters(
-        style.kind().parametersOf(look).with("colour_clip", clip).with("relief", "0"));
-    restart();
-    std::vector<std::uint8_t> painted;
-    for (int i = 0; i < 4; ++i) painted = paint(style, next(face(true)));
-    const double shown = meanOf(painted, false) - meanOf(painted, true);
-    return shown / (kSkin[1] - kEye[1]);
-  }
-
- private:
-  static double meanOf(const std::vector<std::uint8_t>& picture, bool ofSpots) {
-    double sum = 0.0;
-    int count = 0;
-    for (int y = kApart; y < kPictureSize.height - kApart; ++y) {
-      for (int x = kApart; x < kPictureSize.width - kApart; ++x) {
-        if (isSpot(x, y) != ofSpots) continue;
-        sum += picture[static_cast<std::size_t>(4 * (y * kPictureSize.width + x) + 1)];
-        ++count;
+  struct Cover {
+    int onEye = 0;   ///< alpha in the eye's middle
+    int beside = 0;  ///< 20 px from it, along the stroke
+  };
+  Cover drawn(std::uint32_t label, float colourClip) {
+    hal::Image face = plainPicture(kSkin, {kClipped.width / 2, kClipped.height / 2});
+    for (int y = 22; y < 26; ++y) {
+      for (int x = 22; x < 26; ++x) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          face.row(0, y)[static_cast<std::size_t>(4 * x) + c] =
+              static_cast<std::uint8_t>(kEye.at(c));
+        }
       }
     }
-    return sum / count;
+    gpu::Texture picture(gpu::TextureFormat::kRgba8, face.size(), gpu::TextureFilter::kLinear);
+    picture.upload(face.plane(0), static_cast<std::size_t>(face.size().width) * 4);
+    // All of it is of one label: borders.frag's own and other, and the whole share.
+    const std::vector<std::uint32_t> pixels(static_cast<std::size_t>(kClipped.pixels()),
+                                            label | label << 13U | 31U << 26U);
+    gpu::Texture borders(gpu::TextureFormat::kR32ui, kClipped);
+    borders.upload({reinterpret_cast<const std::uint8_t*>(pixels.data()), 4 * pixels.size()},
+                   static_cast<std::size_t>(kClipped.width) * 4);
+    LaidStroke stroke = straightStroke({8, 48}, {88, 48});
+    stroke.halfWidth = 10.0F;
+    stroke.paint = glm::vec4(glm::vec3(kSkin[0], kSkin[1], kSkin[2]) / 255.0F, 1.0F);
+    stroke.label = static_cast<float>(label);
+    lay({stroke});
+    const gpu::Texture colour(gpu::TextureFormat::kRgba8, kClipped);
+    const gpu::Texture height(gpu::TextureFormat::kRgba8, kClipped);
+    const gpu::RenderTarget target({&colour, &height});
+    target.beginKeeping();
+    glClearColor(0, 0, 0, 0);
+    glClear(GL_COLOR_BUFFER_BIT);
+    StrokeDrawing(library_).draw(strips_, makeBrush(Brush::kMarker, 16), {},
+                                 {.borders = &borders, .picture = &picture, .colour = colourClip},
+                                 kClipped, target);
+    hal::Image image = support::readRgba8(colour);
+    const auto row = image.row(0, 48);
+    return {.onEye = row[48 * 4 + 3], .beside = row[68 * 4 + 3]};
   }
 };
 
-TEST_F(ColourClip, KeepsSmallDarkThings) {
-  for (const char* const look : {"oil", "impasto", "gouache"}) {
-    const double without = contrastLeft(look, "0");
-    const double with = contrastLeft(look, "1");
-    RecordProperty(look, std::to_string(without) + " and " + std::to_string(with));
-    EXPECT_GT(with, 0.4) << look;
-    EXPECT_GT(with, 1.4 * without) << look << ", the control";
-  }
+TEST_F(ClippedStroke, OfAMoverLeavesOutWhatIsOfAnotherColour) {
+  const Cover with = drawn(kMoverLabel, 1.0F);
+  EXPECT_LT(with.onEye, 8);
+  EXPECT_GT(with.beside, 200);
+  const Cover without = drawn(kMoverLabel, 0.0F);
+  EXPECT_GT(without.onEye, 200) << "the control";
 }
+
+TEST_F(ClippedStroke, OfTheImageLeavesLittleOut) {
+  const Cover with = drawn(0, 1.0F);
+  EXPECT_LT(with.onEye, 0.8 * with.beside);
+  EXPECT_GT(with.onEye, 0.5 * with.beside);
+}
+
+class ColourClip : public PainterlyTest {};
 
 TEST_F(ColourClip, LeavesPaintWhereThePictureIsItsColour) {
   std::vector<std::vector<std::uint8_t>> painted;
@@ -85,20 +101,14 @@ TEST_F(ColourClip, LeavesPaintWhereThePictureIsItsColour) {
     Painterly style(library_);
     style.setParameters(style.parameters().with("colour_clip", clip));
     restart();
-    painted.push_back(paint(style, next(face(false))));
+    painted.push_back(paint(style, next(plainPicture(kSkin, kSize))));
   }
   EXPECT_LT(meanDifference(painted[0], painted[1]), 0.5);
 }
 
 TEST_F(ColourClip, ComparesLumaWhereThePaletteHasItsOwnHues) {
   // On a blue picture in sepia, all strokes would be of another colour.
-  hal::Image blue({.pixelFormat = hal::PixelFormat::kRgb8, .size = kPictureSize, .encoding = {}});
-  for (int y = 0; y < kPictureSize.height; ++y) {
-    const auto row = blue.row(0, y);
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      row[i] = static_cast<std::uint8_t>(i % 3 == 2 ? 190 : i % 3 == 1 ? 110 : 60);
-    }
-  }
+  const hal::Image blue = plainPicture({60, 110, 190}, kSize);
   std::vector<std::vector<std::uint8_t>> painted;
   for (const char* const clip : {"0", "1"}) {
     Painterly style(library_);

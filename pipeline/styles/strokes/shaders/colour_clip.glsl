@@ -3,8 +3,7 @@
 //          and video for an impressionist effect", 1997, section 2.2: strokes are clipped at edges).
 // Inputs:  picture: reduced; colourClip: by how much, 0: not at all; byLuma: paint of a limited
 //          palette has hues of its own; targetSize: px.
-// Outputs: the share of a stroke's paint that is left at a fragment; `clear`: from no clear difference
-//          to a clear one.
+// Outputs: the share of a stroke's paint that is left at a fragment.
 // Precision: mediump suffices, except for places.
 #include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/marks/shaders/colour_difference.glsl"
@@ -13,16 +12,22 @@ uniform float colourClip;
 uniform bool byLuma;
 uniform vec2 targetSize;
 
-const vec2 kOtherColour = vec2(0.1, 0.4);  // more than strokes differ at random
-const vec2 kOtherThanCarried = vec2(0.04, 0.22);  // of models and movers: their strokes change more
+// From no clear difference to a clear one, and by how much the paint fades there.
+struct ColourClip {
+  vec2 clear;
+  float most;
+};
+const ColourClip kInPicture = ColourClip(vec2(0.2, 0.7), 0.35);
+// On models and movers, whose strokes change more.
+const ColourClip kOnCarried = ColourClip(vec2(0.04, 0.22), 1.0);
 
-float shareOfColour(vec3 rgb, vec2 clear) {
+float shareOfColour(vec3 rgb, ColourClip clip) {
   float share = 1.0;
   // A loop that no invocation enters costs nothing on software renderers.
   for (int i = colourClip > 0.0 ? 0 : 1; i < 1; ++i) {
     vec3 seen = texture(picture, gl_FragCoord.xy / targetSize).rgb;
     vec3 other = byLuma ? vec3(lumaOf(rgb - seen)) : rgb - seen;
-    share -= colourClip * smoothstep(clear.x, clear.y, weightedLength(other));
+    share -= colourClip * clip.most * smoothstep(clip.clear.x, clip.clear.y, weightedLength(other));
   }
   return share;
 }

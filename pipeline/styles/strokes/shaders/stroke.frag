@@ -19,11 +19,13 @@ void main() {
   vec3 rgb = pigment(texel.g);
 #ifdef CLIPPED
   Within share = within();
-  float left = shareOfColour(paint.rgb, goesByItself(label) ? kOtherThanCarried : kOtherColour);
+  ColourClip clip = kInPicture;
+  if (goesByItself(label)) clip = kOnCarried;
+  float left = shareOfColour(paint.rgb, clip);
   // The colour of a mover's border is mixed of both sides', as their paint will be.
   if (share.isMixed) left = 1.0;
 #else
-  float left = shareOfColour(paint.rgb, kOtherColour);
+  float left = shareOfColour(paint.rgb, kInPicture);
 #endif
   float cover = paint.a * texel.r * left;
 #ifdef BUMPED
