@@ -157,7 +157,7 @@ void stages(benchmark::State& state, const char* style, Shown shown = Shown::kNo
   }
 }
 
-/// What telling movers apart costs, by its passes, in a shot from a frame on.
+/// The cost of telling movers apart, by its passes, in a shot from a frame on.
 void layers(benchmark::State& state, hal::SyntheticShot shot, std::uint64_t first) {
   Bench bench(bench::workbenchFilm(sizeOf(state), kFrames, shot, first), sizeOf(state), "painterly",
               gpu::PassTiming::kFences, Shown::kNothing);

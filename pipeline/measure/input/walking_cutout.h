@@ -11,7 +11,7 @@
 
 namespace pleinair::measure {
 
-/// What walks past a photograph.
+/// A cutout that walks past a photograph, and how fast.
 struct WalkerOptions {
   std::filesystem::path cutout;  ///< a picture with transparency
   double pixelsPerSecond = 180.0;
@@ -49,8 +49,8 @@ class WalkingCutout {
   double pixelsPerSecond_;
 };
 
-/// What is known of frames before a standing camera that a cutout walks past. `walker` must outlive
-/// them; `period`: between frames.
+/// The true motion and masks of frames before a standing camera that a cutout walks past. `walker`
+/// must outlive them; `period`: between frames.
 std::unique_ptr<TrueMotion> walkerMotion(const WalkingCutout& walker, cv::Size frame,
                                          hal::Duration period);
 std::unique_ptr<TrueMovers> walkerMovers(const WalkingCutout& walker, hal::Duration period);

@@ -22,11 +22,12 @@ struct StrokeLight {
   float gloss = 0.0F;
 };
 
-/// Where strokes are clipped.
+/// The places where strokes are clipped.
 struct StrokeClip {
-  /// Of the target's size: the borders of what they lie on (shaders/borders.frag); null: nowhere.
+  /// The borders of what strokes lie on (shaders/borders.frag), of the target's size; null: none.
   const gpu::Texture* borders = nullptr;
-  /// The picture, LINEAR: they end where its colour is not theirs; null: nowhere.
+  /// The picture, LINEAR: strokes fade where its colour is not theirs, those of models and movers
+  /// most (shaders/colour_clip.glsl); null: nowhere.
   const gpu::Texture* picture = nullptr;
   float colour = 1.0F;  ///< by how much, in [0, 1]
   bool byLuma = false;  ///< the strokes' hues are not the picture's

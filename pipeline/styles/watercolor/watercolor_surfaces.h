@@ -37,7 +37,8 @@ struct WatercolorCells {
   gpu::Texture ways;    ///< the same
 };
 
-/// What moves over the paper (shaders/gliding.frag), by turns. `size`: that of the motion field.
+/// The masks of what moves over the paper (shaders/gliding.frag), this frame's and the last one's by
+/// turns. `size`: that of the motion field.
 struct WatercolorGliding {
   explicit WatercolorGliding(hal::FrameSize size)
       : masks{{gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear},
