@@ -48,7 +48,7 @@ struct AnchorHold {
   /// styles that clip their marks there. If false, they fade out.
   bool underModels = false;
   bool hasSlack = true;  ///< hysteresis of DensityRule; if false, density is kept at the target
-  /// the same on movers; if false, density is kept at their share of the target, but for one anchor
+  /// the same on movers; if false, density is kept at their share of the target, but for two anchors
   bool hasMoverSlack = true;
 };
 

@@ -289,10 +289,12 @@ class Measurement {
   void judgeMovers() {
     report_.movers = movers_.total();
     if (!report_.movers) return;
-    for (Verdict& verdict : moverControlVerdicts(*report_.movers)) {
+    const MoverMarks marks{.areOnPaper = options_.isOnPaper,
+                           .areLines = options_.coherence.drawsLines};
+    for (Verdict& verdict : moverControlVerdicts(*report_.movers, marks)) {
       report_.controls.push_back(std::move(verdict));
     }
-    for (Verdict& verdict : moverVerdicts(*report_.movers, options_.isOnPaper)) {
+    for (Verdict& verdict : moverVerdicts(*report_.movers, marks)) {
       report_.gates.push_back(std::move(verdict));
     }
     judgeLabels();

@@ -22,6 +22,8 @@ constexpr double kMaxRemainsPercent = 2.0;
 constexpr double kMaxMoverNHw2 = 0.25;
 constexpr double kMaxMoverPopPercent = 2.0;
 constexpr double kMaxSeamPopPercent = 3.0;
+constexpr double kMaxLinePopPercent = 5.0;
+constexpr double kMaxLineSeamPopPercent = 10.0;
 constexpr double kMaxFlipsPercent = 0.0;
 constexpr double kMaxDisplacedIou = 0.8;
 constexpr std::uint64_t kDetectionFrames = 3;
@@ -41,6 +43,9 @@ constexpr Limit kRemainsLimit{"REMAINS", " %", kMaxRemainsPercent, kNoMover};
 constexpr Limit kMoverNHw2Limit{"MOVER nHW2", "", kMaxMoverNHw2, kNothingFollowed};
 constexpr Limit kMoverPopLimit{"MOVER POP", " %", kMaxMoverPopPercent, kNothingFollowed};
 constexpr Limit kSeamPopLimit{"SEAM POP", " %", kMaxSeamPopPercent, kNothingFollowed};
+constexpr Limit kLinePopLimit{"smoothed MOVER POP", " %", kMaxLinePopPercent, kNothingFollowed};
+constexpr Limit kLineSeamPopLimit{"smoothed SEAM POP", " %", kMaxLineSeamPopPercent,
+                                  kNothingFollowed};
 constexpr Limit kAveragingLost{"LOST of a painter that averages over 0.65 s", " %", kMaxLostPercent,
                                kNoClearMover, false};
 
@@ -57,17 +62,24 @@ constexpr Limit kStillFlipsLimit{"labels that flip on the still scene", " %", kM
                                  "no still scene"};
 
 std::vector<Verdict> verdictsAlong(const MoverMotionSummary& painting,
-                                   const MoverMotionSummary& input) {
+                                   const MoverMotionSummary& input, bool areLines) {
+  if (areLines) {
+    return {verdictAlong(kMoverNHw2Limit, painting.nHw2, input.nHw2),
+            verdictAlong(kLinePopLimit, painting.smoothPopPercent, input.smoothPopPercent),
+            verdictAlong(kLineSeamPopLimit, painting.smoothSeamPopPercent,
+                         input.smoothSeamPopPercent)};
+  }
   return {verdictAlong(kMoverNHw2Limit, painting.nHw2, input.nHw2),
           verdictAlong(kMoverPopLimit, painting.popPercent, input.popPercent),
           verdictAlong(kSeamPopLimit, painting.seamPopPercent, input.seamPopPercent)};
 }
 
 /// Marks that are redrawn in each frame have to fail at least one of the gates along the motion.
-Verdict redrawnVerdict(const MoverMotionSummary& redrawn, const MoverMotionSummary& input) {
+Verdict redrawnVerdict(const MoverMotionSummary& redrawn, const MoverMotionSummary& input,
+                       bool areLines) {
   Verdict verdict{.what = "marks redrawn each frame fail MOVER nHW2, MOVER POP or SEAM POP",
                   .found = kNothingFollowed};
-  const std::vector<Verdict> gates = verdictsAlong(redrawn, input);
+  const std::vector<Verdict> gates = verdictsAlong(redrawn, input, areLines);
   if (std::ranges::all_of(gates, [](const Verdict& gate) { return !gate.comparison->value; })) {
     verdict.found = gates.front().found;
     return verdict;
@@ -108,7 +120,7 @@ Verdict detectionVerdict(const std::vector<Detection>& detections) {
 
 }  // namespace
 
-std::vector<Verdict> moverVerdicts(const MoverReport& movers, bool isOnPaper) {
+std::vector<Verdict> moverVerdicts(const MoverReport& movers, MoverMarks marks) {
   const MoverSummary& painting = movers.painting;
   std::vector<Verdict> verdicts{verdictOf(kStillLimit, painting.stillPercent),
                                 verdictOf(kReturnLimit, painting.returnLevels),
@@ -118,16 +130,18 @@ std::vector<Verdict> moverVerdicts(const MoverReport& movers, bool isOnPaper) {
     verdicts.push_back(verdictOf(kRemainsLimit, painting.remainsPercent));
   }
   for (Verdict& verdict :
-       verdictsAlong(movers.alongMotion[Subject::kPainting], movers.alongMotion[Subject::kInput])) {
+       verdictsAlong(movers.alongMotion[Subject::kPainting], movers.alongMotion[Subject::kInput],
+                     marks.areLines)) {
     verdicts.push_back(std::move(verdict));
   }
-  if (!isOnPaper) verdicts.push_back(verdictOf(kLostLimit, painting.lostPercent));
+  if (!marks.areOnPaper) verdicts.push_back(verdictOf(kLostLimit, painting.lostPercent));
   return verdicts;
 }
 
-std::vector<Verdict> moverControlVerdicts(const MoverReport& movers) {
+std::vector<Verdict> moverControlVerdicts(const MoverReport& movers, MoverMarks marks) {
   return {verdictOf(kAveragingLost, movers.averaging.lostPercent),
-          redrawnVerdict(movers.alongMotion[Subject::kFresh], movers.alongMotion[Subject::kInput]),
+          redrawnVerdict(movers.alongMotion[Subject::kFresh], movers.alongMotion[Subject::kInput],
+                         marks.areLines),
           verdictOf(kDisplacedStill, movers.displacedStillPercent)};
 }
 

@@ -9,10 +9,18 @@
 
 namespace pleinair::measure {
 
-/// The gates of movers. `isOnPaper`: on bare paper, LOST says nothing.
-std::vector<Verdict> moverVerdicts(const MoverReport& movers, bool isOnPaper);
+/// What a style's marks are, where it decides how they are judged on movers.
+struct MoverMarks {
+  bool areOnPaper = false;  ///< on bare paper, LOST says nothing
+  /// Thin lines change by more than POP's 24 levels when they move by a part of a pixel: POP is that
+  /// of smoothed pictures.
+  bool areLines = false;
+};
+
+/// The gates of movers.
+std::vector<Verdict> moverVerdicts(const MoverReport& movers, MoverMarks marks);
 /// Whether the controls read as they must.
-std::vector<Verdict> moverControlVerdicts(const MoverReport& movers);
+std::vector<Verdict> moverControlVerdicts(const MoverReport& movers, MoverMarks marks);
 
 /// The gates of labels, of a sequence and of a still scene (percent of flips).
 std::vector<Verdict> labelVerdicts(const std::optional<LabelSummary>& labels,

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <opencv2/imgproc.hpp>
+
 #include "pipeline/measure/image_measures.h"
 #include "pipeline/measure/input/picture.h"
 #include "pipeline/measure/mover_masks.h"
@@ -11,11 +13,18 @@ namespace pleinair::measure {
 namespace {
 
 constexpr int kSeamPixels = 8;
+constexpr double kLineSmoothing = 2.0;  // px
 
 cv::Mat1b seamOf(const cv::Mat1b& movers) {
   cv::Mat1b seam;
   cv::subtract(grown(movers, kSeamPixels), eroded(movers, kSeamPixels), seam);
   return seam;
+}
+
+cv::Mat3f smoothed(const cv::Mat3f& picture) {
+  cv::Mat3f smooth;
+  cv::GaussianBlur(picture, smooth, {}, kLineSmoothing);
+  return smooth;
 }
 
 }  // namespace
@@ -41,8 +50,14 @@ void MoverMotion::compare(Subject subject, const Recent& earlier, const Recent& 
   const cv::Mat3f& from = earlier.pictures[subject];
   const cv::Mat3f& to = later.pictures[subject];
   Sums& sums = sums_[subject];
-  sums.popped += poppedShare(from, warpedBack(to, limitedTo(earlier.movers, motion)));
-  sums.seamPopped += poppedShare(from, warpedBack(to, limitedTo(seamOf(earlier.movers), motion)));
+  const MotionMap onMovers = limitedTo(earlier.movers, motion);
+  const MotionMap inSeam = limitedTo(seamOf(earlier.movers), motion);
+  sums.popped += poppedShare(from, warpedBack(to, onMovers));
+  sums.seamPopped += poppedShare(from, warpedBack(to, inSeam));
+  const cv::Mat3f smooth = smoothed(from);
+  const cv::Mat3f smoothLater = smoothed(to);
+  sums.smoothPopped += poppedShare(smooth, warpedBack(smoothLater, onMovers));
+  sums.smoothSeamPopped += poppedShare(smooth, warpedBack(smoothLater, inSeam));
   const MotionMap inside = limitedTo(earlier.movers, motion, kHighPassReach);
   const cv::Mat3f fine = highPass(from);
   const cv::Mat3f fineLater = highPass(to);
@@ -55,7 +70,9 @@ MoverMotionSummary MoverMotion::of(Subject subject) const {
   const Sums& sums = sums_[subject];
   return {.nHw2 = ratio(sums.error.value(), sums.misaligned.value()),
           .popPercent = percentOf(sums.popped),
-          .seamPopPercent = percentOf(sums.seamPopped)};
+          .seamPopPercent = percentOf(sums.seamPopped),
+          .smoothPopPercent = percentOf(sums.smoothPopped),
+          .smoothSeamPopPercent = percentOf(sums.smoothSeamPopped)};
 }
 
 }  // namespace pleinair::measure

@@ -17,6 +17,9 @@ struct MoverMotionSummary {
   std::optional<double> nHw2;            ///< MOVER nHW2
   std::optional<double> popPercent;      ///< MOVER POP
   std::optional<double> seamPopPercent;  ///< SEAM POP
+  /// Both of pictures smoothed by 2 px.
+  std::optional<double> smoothPopPercent;
+  std::optional<double> smoothSeamPopPercent;
 };
 
 /// nHW2 and POP (image_measures.h) along the motion over two frames, on movers and in the seam,
@@ -44,6 +47,8 @@ class MoverMotion {
     Mean misaligned;
     Mean popped;
     Mean seamPopped;
+    Mean smoothPopped;
+    Mean smoothSeamPopped;
   };
   void compare(Subject subject, const Recent& earlier, const Recent& later,
                const MotionMap& motion);

@@ -33,6 +33,8 @@ struct CoherenceGates {
   bool holdsAnchors = false;
   /// Looks on bare paper, which show little of the colours of things.
   std::span<const std::string_view> paperLooks = {};
+  /// Thin lines: an exact motion by a part of a pixel changes them clearly.
+  bool drawsLines = false;
 
   bool empty() const { return gates.empty(); }
 };

@@ -165,7 +165,7 @@ void main() {
   }
   float moving = moverShare(at);
   uint mostOnMovers =
-      uint(hasMoverSlack ? float(deathAbove) : floor(moving * float(target) + 1.5));
+      uint(hasMoverSlack ? float(deathAbove) : floor(moving * float(target) + 2.5));
   if (cell.onMovers > mostOnMovers) anchors[slotOf(cell.nextOnMovers)].state |= kDying;
   // Border cells may be cut off.
   vec2 inside = clamp((fullSize - vec2(at * cellPixels)) / float(cellPixels), 0.0, 1.0);

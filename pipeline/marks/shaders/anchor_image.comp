@@ -88,7 +88,8 @@ Moved measuredAt(vec2 px, float object, int mover, bool isBesideMover, Moved flo
     if (!restsWithCamera) own += image.displacement;
     isFlowKnown = isFlowKnown && !isBesideAnother;
     if (isFlowKnown) own += seenPart(flowed.displacement - own, px + own);
-    return Moved(own, kError, isFlowKnown ? kSourceFlow : kSourceFlow | kStraight);
+    // The turn that flow shows within a few pixels is mostly its noise.
+    return Moved(own, kError, kSourceFlow | kStraight);
   }
   if (object != 0.0) {
     if (isPlain) image.error = max(image.error, kMinError);

@@ -101,7 +101,9 @@ Json jsonOf(const MoverSummary& movers) {
 Json jsonOf(const MoverMotionSummary& along) {
   return {{"mover_nhw2", orNull(along.nHw2)},
           {"mover_pop_percent", orNull(along.popPercent)},
-          {"seam_pop_percent", orNull(along.seamPopPercent)}};
+          {"seam_pop_percent", orNull(along.seamPopPercent)},
+          {"mover_pop_smoothed_percent", orNull(along.smoothPopPercent)},
+          {"seam_pop_smoothed_percent", orNull(along.smoothSeamPopPercent)}};
 }
 
 Json jsonOf(const RegionSummary& region) {

@@ -168,10 +168,12 @@ std::vector<std::string> moverLines(const Report& report) {
   for (const Subject subject : kAllSubjects) {
     const MoverMotionSummary& along = movers.alongMotion[subject];
     lines.push_back(
-        fmt::format("{}, along the {} motion: MOVER nHW2 {}, MOVER POP {}, SEAM POP {}",
+        fmt::format("{}, along the {} motion: MOVER nHW2 {}, MOVER POP {}, SEAM POP {}; "
+                    "smoothed {}, {}",
                     subject == Subject::kPainting ? "the painting" : nameOf(subject, report),
                     movers.areMasksTrue ? "true" : "estimated", text(along.nHw2, ""),
-                    text(along.popPercent, " %"), text(along.seamPopPercent, " %")));
+                    text(along.popPercent, " %"), text(along.seamPopPercent, " %"),
+                    text(along.smoothPopPercent, " %"), text(along.smoothSeamPopPercent, " %")));
   }
   return lines;
 }

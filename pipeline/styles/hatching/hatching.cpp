@@ -306,6 +306,8 @@ void Hatching::State::finish(const scene::ArFrame& frame, const HatchingParamete
       .set("colour", static_cast<float>(p.colour))
       .set("paperColour", glm::vec3(p.paperRed, p.paperGreen, p.paperBlue))
       .set("tooth", static_cast<float>(p.tooth))
+      .texture("movers", layerTextures.labelsOf(moversOf(p)))
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .set("relief", static_cast<float>(p.relief))
       .drawFullscreen(canvas->pictureTarget);
 }
@@ -333,7 +335,7 @@ const StyleKind& hatchingKind() {
                 .measuredMotion = true,
                 .canvas = true,
                 .shading = scene::Shading::kSmooth},
-      .coherence = {.gates = kGates, .paperLooks = kPaperLooks},
+      .coherence = {.gates = kGates, .paperLooks = kPaperLooks, .drawsLines = true},
       .shaders = {gpu::hatchingShaders(), gpu::strokesShaders(), gpu::substrateShaders()},
       .check =
           [](const config::ParameterValues& values) {

@@ -60,8 +60,8 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
       numberParameter("colour_threshold", &P::colourThreshold, {.min = 0.01, .max = 1},
                       "The colour difference at which a fine stroke ends (thesis §4.4)."),
       numberParameter("colour_clip", &P::colourClip, kPart,
-                      "How much strokes leave out what is of quite another colour, such as eyes; most on "
-                      "models and on what moves."),
+                      "How much strokes of models and of what moves leave out what is of quite another "
+                      "colour, such as eyes."),
       numberParameter("cut_off", &P::cutOffDegrees, {.min = 1, .max = 90, .unit = "degrees"},
                       "The turn between two segments at which a fine stroke ends."),
       numberParameter("wander", &P::wander, {.min = 0, .max = 1, .unit = "rad"},
@@ -165,7 +165,7 @@ canvas = 0.05
 )"},
     {"gouache", "flat, matt and opaque", R"(
 layers = 3
-stroke_size = 3.5
+stroke_size = 3.7
 detail = 0.2
 layer_ratio = 2.2
 length = 6
@@ -177,12 +177,12 @@ relief = 0.25
 gloss = 0
 hue_jitter = 0.03
 saturation_jitter = 0.14
-value_jitter = 0.11
+value_jitter = 0.14
 wash = 1
 warmth = 0.05
 )"},
     {"pastel", "dry chalk on toned paper, which shines through", R"(
-stroke_size = 3.1
+stroke_size = 3.3
 length = 7
 layers = 3
 brush = "dry"
@@ -199,7 +199,7 @@ ground_blue = 0.47
 wander = 0.22
 saturation = 1.25
 hue_jitter = 0.05
-value_jitter = 0.14
+value_jitter = 0.19
 )"},
     {"sketch", "coloured pencils on white paper", R"(
 layers = 2

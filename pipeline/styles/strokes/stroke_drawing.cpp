@@ -92,15 +92,15 @@ void StrokeDrawing::draw(const StrokeStrips& strips, const gpu::Texture& brush,
                          const gpu::RenderTarget& target) {
   gpu::Program& program = paint_[light.each ? 1 : 0][clip.borders != nullptr ? 1 : 0];
   const hal::FrameSize size = target.size();
-  program.use()
-      .texture("brushes", brush)
-      .set("fullSize", glm::vec2(full.width, full.height))
-      .texture("picture", clip.picture != nullptr ? *clip.picture : brush)
-      .set("colourClip", clip.picture != nullptr ? clip.colour : 0.0F)
-      .set("byLuma", clip.byLuma ? 1 : 0)
-      .set("targetSize", glm::vec2(size.width, size.height));
+  program.use().texture("brushes", brush).set("fullSize", glm::vec2(full.width, full.height));
   if (light.each) program.set("relief", light.relief).set("gloss", light.gloss);
-  if (clip.borders != nullptr) program.texture("borders", *clip.borders);
+  if (clip.borders != nullptr) {
+    program.texture("borders", *clip.borders)
+        .texture("picture", clip.picture != nullptr ? *clip.picture : brush)
+        .set("colourClip", clip.picture != nullptr ? clip.colour : 0.0F)
+        .set("byLuma", clip.byLuma ? 1 : 0)
+        .set("targetSize", glm::vec2(size.width, size.height));
+  }
   strips_.draw(program, strips, target);
 }
 

@@ -26,8 +26,8 @@ struct StrokeLight {
 struct StrokeClip {
   /// The borders of what strokes lie on (shaders/borders.frag), of the target's size; null: none.
   const gpu::Texture* borders = nullptr;
-  /// The picture, LINEAR: strokes fade where its colour is not theirs, those of models and movers
-  /// most (shaders/colour_clip.glsl); null: nowhere.
+  /// The picture, LINEAR: strokes of models and movers fade where its colour is not theirs
+  /// (shaders/colour_clip.glsl); null: nowhere.
   const gpu::Texture* picture = nullptr;
   float colour = 1.0F;  ///< by how much, in [0, 1]
   bool byLuma = false;  ///< the strokes' hues are not the picture's

@@ -122,10 +122,10 @@ TEST(MoverMeasures, MarksThatAMoverCarriesPass) {
   EXPECT_LT(along.popPercent.value(), 0.1);
   EXPECT_LT(along.seamPopPercent.value(), 0.1);
   EXPECT_NEAR(report.painting.lostPercent.value(), 0.0, 0.5);
-  for (const Verdict& verdict : moverVerdicts(report, false)) {
+  for (const Verdict& verdict : moverVerdicts(report, {})) {
     EXPECT_EQ(verdict.state, Verdict::State::kPassed) << verdict.what << ": " << verdict.found;
   }
-  for (const Verdict& verdict : moverControlVerdicts(report)) {
+  for (const Verdict& verdict : moverControlVerdicts(report, {})) {
     EXPECT_EQ(verdict.state, Verdict::State::kPassed) << verdict.what << ": " << verdict.found;
   }
 }
@@ -135,9 +135,10 @@ TEST(MoverMeasures, MarksThatAMoverSlidesUnderFail) {
   const MoverMotionSummary& along = report.alongMotion[Subject::kPainting];
   EXPECT_GT(along.nHw2.value(), 0.5);
   EXPECT_GT(along.popPercent.value(), 20.0);
+  EXPECT_GT(along.smoothPopPercent.value(), 10.0);
   EXPECT_LT(report.alongMotion[Subject::kInput].nHw2.value(), 0.1);
   int failed = 0;
-  for (const Verdict& verdict : moverVerdicts(report, false)) {
+  for (const Verdict& verdict : moverVerdicts(report, {})) {
     const bool isAlong = verdict.what.starts_with("MOVER") || verdict.what.starts_with("SEAM");
     EXPECT_EQ(verdict.state, isAlong ? Verdict::State::kFailed : Verdict::State::kPassed)
         << verdict.what << ": " << verdict.found;
@@ -181,7 +182,7 @@ TEST(MoverMeasures, APaintingLikeTheInputPasses) {
   EXPECT_LT(report.painting.returnLevels.value(), 2.0);
   EXPECT_LT(report.painting.ghost.value(), 0.05);
   EXPECT_NEAR(report.painting.lostPercent.value(), 0.0, 0.5);
-  for (const Verdict& verdict : moverVerdicts(report, false)) {
+  for (const Verdict& verdict : moverVerdicts(report, {})) {
     EXPECT_NE(verdict.state, Verdict::State::kFailed) << verdict.what << ": " << verdict.found;
   }
 }
@@ -279,7 +280,7 @@ TEST(MoverMeasures, AChangeAwayFromMoversIsNotStill) {
 
 TEST(MoverMeasures, ControlsThatMustFailDo) {
   const MoverReport report = reportOf(seen);
-  for (const Verdict& verdict : moverControlVerdicts(report)) {
+  for (const Verdict& verdict : moverControlVerdicts(report, {})) {
     EXPECT_NE(verdict.state, Verdict::State::kFailed) << verdict.what << ": " << verdict.found;
   }
 }
@@ -296,10 +297,10 @@ TEST(MoverMeasures, WithoutAMoverNothingIsMeasured) {
   EXPECT_FALSE(report.painting.ghost);
   EXPECT_FALSE(report.painting.returnLevels);
   EXPECT_FALSE(report.painting.lostPercent);
-  for (const Verdict& verdict : moverControlVerdicts(report)) {
+  for (const Verdict& verdict : moverControlVerdicts(report, {})) {
     EXPECT_EQ(verdict.state, Verdict::State::kNotMeasured) << verdict.what;
   }
-  for (const Verdict& verdict : moverVerdicts(report, true)) {
+  for (const Verdict& verdict : moverVerdicts(report, {.areOnPaper = true})) {
     EXPECT_THAT(verdict.what, testing::Not(testing::HasSubstr("LOST"))) << "on paper";
     const bool isStill = verdict.what.starts_with("STILL");
     EXPECT_EQ(verdict.state, isStill ? Verdict::State::kPassed : Verdict::State::kNotMeasured);
@@ -314,7 +315,7 @@ TEST(MoverMeasures, AlongAWrongMotionNothingIsJudged) {
   report.alongMotion[Subject::kPainting] = {.nHw2 = 0.1, .popPercent = 90.0, .seamPopPercent = 1.0};
   report.alongMotion[Subject::kInput] = {.nHw2 = 0.1, .popPercent = 92.0, .seamPopPercent = 1.4};
   const auto stateOf = [&](std::string_view name) {
-    for (const Verdict& verdict : moverVerdicts(report, true)) {
+    for (const Verdict& verdict : moverVerdicts(report, {.areOnPaper = true})) {
       if (verdict.what.starts_with(name)) return verdict.state;
     }
     return Verdict::State::kNotMeasured;
@@ -326,8 +327,34 @@ TEST(MoverMeasures, AlongAWrongMotionNothingIsJudged) {
   EXPECT_EQ(stateOf("MOVER POP"), Verdict::State::kFailed) << "the control";
 }
 
+/// Lines of a pixel, half of a pixel off: each changes clearly, their drawing does not.
+TEST(MoverMeasures, LinesAreComparedSmoothed) {
+  MoverReport report;
+  report.alongMotion[Subject::kPainting] = {.nHw2 = 0.1,
+                                            .popPercent = 35.0,
+                                            .seamPopPercent = 35.0,
+                                            .smoothPopPercent = 5.0,
+                                            .smoothSeamPopPercent = 8.0};
+  report.alongMotion[Subject::kInput] = {.nHw2 = 0.1,
+                                         .popPercent = 0.1,
+                                         .seamPopPercent = 0.1,
+                                         .smoothPopPercent = 0.1,
+                                         .smoothSeamPopPercent = 0.1};
+  const auto failures = [&](bool areLines) {
+    std::vector<std::string> failed;
+    for (const Verdict& verdict : moverVerdicts(report, {.areLines = areLines})) {
+      if (verdict.state == Verdict::State::kFailed) failed.push_back(verdict.what);
+    }
+    return failed;
+  };
+  EXPECT_THAT(failures(false), testing::SizeIs(2));
+  EXPECT_THAT(failures(true), testing::IsEmpty());
+  report.alongMotion[Subject::kPainting].smoothPopPercent = 40.0;
+  EXPECT_THAT(failures(true), testing::ElementsAre(testing::StartsWith("smoothed MOVER POP")));
+}
+
 TEST(MoverMeasures, WhatIsMissingSaysWhy) {
-  for (const Verdict& verdict : moverVerdicts({}, false)) {
+  for (const Verdict& verdict : moverVerdicts({}, {})) {
     EXPECT_EQ(verdict.state, Verdict::State::kNotMeasured);
     const bool needsVisit = verdict.what.starts_with("RETURN") || verdict.what.starts_with("GHOST");
     EXPECT_EQ(verdict.found == "no mover came and went", needsVisit) << verdict.what;

@@ -1,6 +1,7 @@
-// Purpose: keeps a stroke's paint off places where the picture is of quite another colour, so that
-//          small things are not painted over by what is beside them (Litwinowicz, "Processing images
-//          and video for an impressionist effect", 1997, section 2.2: strokes are clipped at edges).
+// Purpose: keeps the paint of strokes on models and movers, which change more than those of the rest
+//          of the picture, off places where the picture is of quite another colour, so that small things
+//          are not painted over by what is beside them (Litwinowicz, "Processing images and video for
+//          an impressionist effect", 1997, section 2.2: strokes are clipped at edges).
 // Inputs:  picture: reduced; colourClip: by how much, 0: not at all; byLuma: paint of a limited
 //          palette has hues of its own; targetSize: px.
 // Outputs: the share of a stroke's paint that is left at a fragment.
@@ -12,22 +13,16 @@ uniform float colourClip;
 uniform bool byLuma;
 uniform vec2 targetSize;
 
-// From no clear difference to a clear one, and by how much the paint fades there.
-struct ColourClip {
-  vec2 clear;
-  float most;
-};
-const ColourClip kInPicture = ColourClip(vec2(0.2, 0.7), 0.35);
-// On models and movers, whose strokes change more.
-const ColourClip kOnCarried = ColourClip(vec2(0.04, 0.22), 1.0);
+// From no clear difference to a clear one.
+const vec2 kClear = vec2(0.04, 0.22);
 
-float shareOfColour(vec3 rgb, ColourClip clip) {
+float shareOfColour(vec3 rgb, bool isCarried) {
   float share = 1.0;
   // A loop that no invocation enters costs nothing on software renderers.
-  for (int i = colourClip > 0.0 ? 0 : 1; i < 1; ++i) {
+  for (int i = isCarried && colourClip > 0.0 ? 0 : 1; i < 1; ++i) {
     vec3 seen = texture(picture, gl_FragCoord.xy / targetSize).rgb;
     vec3 other = byLuma ? vec3(lumaOf(rgb - seen)) : rgb - seen;
-    share -= colourClip * clip.most * smoothstep(clip.clear.x, clip.clear.y, weightedLength(other));
+    share -= colourClip * smoothstep(kClear.x, kClear.y, weightedLength(other));
   }
   return share;
 }

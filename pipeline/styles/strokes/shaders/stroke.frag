@@ -1,15 +1,15 @@
 // Purpose: the paint of a brush mark and its thickness.
 // Defines: BUMPED: each stroke is lit by itself. CLIPPED: for a frame with models: no paint beyond
 //          the border of what it lies on.
-// Inputs, outputs: stroke_mark.glsl's; colour_clip.glsl's; BUMPED: stroke_bump.glsl's; CLIPPED:
+// Inputs, outputs: stroke_mark.glsl's; BUMPED: stroke_bump.glsl's; CLIPPED: colour_clip.glsl's and
 //          stroke_clip.glsl's.
 // Precision: as there.
-#include "pipeline/styles/strokes/shaders/colour_clip.glsl"
 #include "pipeline/styles/strokes/shaders/stroke_mark.glsl"
 #ifdef BUMPED
 #include "pipeline/styles/strokes/shaders/stroke_bump.glsl"
 #endif
 #ifdef CLIPPED
+#include "pipeline/styles/strokes/shaders/colour_clip.glsl"
 #include "pipeline/styles/strokes/shaders/stroke_clip.glsl"
 #endif
 
@@ -17,17 +17,12 @@ void main() {
   vec2 place = brushPlace();
   vec2 texel = markAt(place);
   vec3 rgb = pigment(texel.g);
+  float cover = paint.a * texel.r;
 #ifdef CLIPPED
   Within share = within();
-  ColourClip clip = kInPicture;
-  if (goesByItself(label)) clip = kOnCarried;
-  float left = shareOfColour(paint.rgb, clip);
   // The colour of a mover's border is mixed of both sides', as their paint will be.
-  if (share.isMixed) left = 1.0;
-#else
-  float left = shareOfColour(paint.rgb, kInPicture);
+  cover *= shareOfColour(paint.rgb, goesByItself(label) && !share.isMixed);
 #endif
-  float cover = paint.a * texel.r * left;
 #ifdef BUMPED
   rgb = bumped(rgb, place);
 #endif
