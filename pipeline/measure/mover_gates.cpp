@@ -64,10 +64,10 @@ constexpr Limit kStillFlipsLimit{"labels that flip on the still scene", " %", kM
 std::vector<Verdict> verdictsAlong(const MoverMotionSummary& painting,
                                    const MoverMotionSummary& input, bool areLines) {
   if (areLines) {
-    return {verdictAlong(kMoverNHw2Limit, painting.nHw2, input.nHw2),
-            verdictAlong(kLinePopLimit, painting.smoothPopPercent, input.smoothPopPercent),
-            verdictAlong(kLineSeamPopLimit, painting.smoothSeamPopPercent,
-                         input.smoothSeamPopPercent)};
+    return {
+        verdictAlong(kMoverNHw2Limit, painting.nHw2, input.nHw2),
+        verdictAlong(kLinePopLimit, painting.smoothPopPercent, input.smoothPopPercent),
+        verdictAlong(kLineSeamPopLimit, painting.smoothSeamPopPercent, input.smoothSeamPopPercent)};
   }
   return {verdictAlong(kMoverNHw2Limit, painting.nHw2, input.nHw2),
           verdictAlong(kMoverPopLimit, painting.popPercent, input.popPercent),
@@ -129,9 +129,8 @@ std::vector<Verdict> moverVerdicts(const MoverReport& movers, MoverMarks marks) 
   if (painting.remainsPercent) {
     verdicts.push_back(verdictOf(kRemainsLimit, painting.remainsPercent));
   }
-  for (Verdict& verdict :
-       verdictsAlong(movers.alongMotion[Subject::kPainting], movers.alongMotion[Subject::kInput],
-                     marks.areLines)) {
+  for (Verdict& verdict : verdictsAlong(movers.alongMotion[Subject::kPainting],
+                                        movers.alongMotion[Subject::kInput], marks.areLines)) {
     verdicts.push_back(std::move(verdict));
   }
   if (!marks.areOnPaper) verdicts.push_back(verdictOf(kLostLimit, painting.lostPercent));

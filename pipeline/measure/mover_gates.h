@@ -12,8 +12,8 @@ namespace pleinair::measure {
 /// What a style's marks are, where it decides how they are judged on movers.
 struct MoverMarks {
   bool areOnPaper = false;  ///< on bare paper, LOST says nothing
-  /// Thin lines change by more than POP's 24 levels when they move by a part of a pixel: POP is that
-  /// of smoothed pictures.
+  /// Thin lines change by more than POP's 24 levels when they move by a part of a pixel: POP is
+  /// that of smoothed pictures.
   bool areLines = false;
 };
 

@@ -26,14 +26,16 @@ class MoverSilhouette : public PainterlyTest {
   }
 
   struct Edge {
-    double error = 0.0;         ///< levels by which painting and picture differ there, in the mean
-    double specksPercent = 0.0;  ///< of the wall's pixels 1 to 3 px beside it, those that differ clearly
+    double error = 0.0;  ///< levels by which painting and picture differ there, in the mean
+    double specksPercent =
+        0.0;  ///< of the wall's pixels 1 to 3 px beside it, those that differ clearly
   };
   struct Settings {
     const char* clip = "true";
     const char* colourClip = "1";
     const char* relief = "0";
-    double spikes = 0.0;  ///< the share of single pixels of the wall that are nearly as dark as the disc
+    double spikes =
+        0.0;  ///< the share of single pixels of the wall that are nearly as dark as the disc
   };
 
   /// How the disc's edge is painted, once it has come in and moves by fractions of a pixel.
