@@ -25,6 +25,7 @@ std::unique_ptr<runtime::OutputStage> openScreen(const std::string& target,
     return std::make_unique<runtime::OutputStage>(*std::move(opened), *format, std::move(options),
                                                   clock, ledger);
   }
+  if (!options.reopen) throw hal::Failure(std::move(format.error()));
   options.absence = std::move(format.error());
   const hal::OutputFormat standIn{
       .frame = {.pixelFormat = hal::PixelFormat::kRgba8, .size = kRequest.size, .encoding = {}},

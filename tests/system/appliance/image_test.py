@@ -2,13 +2,14 @@
 """Scenarios of the machine image and of its updates, in QEMU. Each takes from ten minutes to an hour under emulation.
 
     image_test.py FOLDER_OF_IMAGES RESULTS prepare       makes what the others need, from `./dev image`'s root
-    image_test.py FOLDER_OF_IMAGES RESULTS SCENARIO      install, updates, copies, or power_cut:SEED
+    image_test.py FOLDER_OF_IMAGES RESULTS SCENARIO      boot, install, updates, copies, or power_cut:SEED
 
 Exit status: 0; 1; 77, a skip: there is no image (./dev package; ./dev image), or a program is missing.
 """
 import hashlib
 import os
 import random
+import re
 import shutil
 import subprocess
 import sys
@@ -29,7 +30,15 @@ VERSION_WORDS = "pleinair.trial_minutes={}"
 # A real-time thread that the emulation slows down has used up its time, and is killed for it (LimitRTTIME=).
 EMULATED = "[Service]\nLimitRTPRIO=0\n"
 HANGING = "[Service]\nType=simple\nWatchdogSec=0\nExecStart=\nExecStart=/usr/bin/sleep infinity\n"
+# Depends on nothing: what the machine itself needs until then is not the program's.
+CONTROL = """[Unit]
+DefaultDependencies=no
+[Service]
+Type=oneshot
+ExecStart=/usr/bin/true
+"""
 CONFIRMED = r"slot {} is confirmed"
+MOST_TO_SPLASH = 9.0  # seconds: one of a machine that is not emulated
 CONFIRM_MINUTES = 45  # to the first painting and a minute more: 6 on an idle machine
 SITE = b'[painting]\nlook = "line_and_wash"\n'
 
@@ -53,7 +62,7 @@ class Images:
         """`kiosk_settings`: a drop-in of the service that paints."""
         output = os.path.join(self._made, version)
         done = os.path.join(output, "done")
-        stamp = f"{os.path.getmtime(self._tar)} {VERSION_WORDS.format(minutes)}"
+        stamp = f"{os.path.getmtime(self._tar)} {VERSION_WORDS.format(minutes)} {CONTROL}"
         if os.path.exists(done) and open(done).read() == stamp:
             return output
         shutil.rmtree(output, ignore_errors=True)
@@ -64,6 +73,13 @@ class Images:
         os.makedirs(place, exist_ok=True)
         with open(os.path.join(place, "scenario.conf"), "w") as file:
             file.write(kiosk_settings)
+        units = os.path.dirname(place)
+        with open(os.path.join(units, "control.service"), "w") as file:
+            file.write(CONTROL)
+        wanted = os.path.join(units, "sysinit.target.wants")
+        os.makedirs(wanted, exist_ok=True)
+        if not os.path.islink(os.path.join(wanted, "control.service")):
+            os.symlink("../control.service", os.path.join(wanted, "control.service"))
         began = time.monotonic()
         subprocess.run(command + [overlay], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                        env={**os.environ, "PLEINAIR_KERNEL_WORDS": VERSION_WORDS.format(minutes)})
@@ -173,6 +189,34 @@ echo END
 echo o >/proc/sysrq-trigger
 sleep 60
 """
+
+
+def seconds_of(pattern, journal):
+    """The uptime at which the journal says so."""
+    match = re.search(r"\[ *([0-9.]+)\] systemd\[1\]: " + pattern, journal)
+    if not match:
+        raise Failed(f"the journal does not say \"{pattern}\"")
+    return float(match.group(1))
+
+
+def boot(images, folder):
+    """The times of one start. The picture of the start comes soon after a unit that depends on nothing; the service's first
+    picture follows, and no console is seen."""
+    disk = kiosk.overlay(set_up_disk(images, folder), os.path.join(folder, "disk.qcow2"))
+    with Kiosk(disk, folder) as machine:
+        machine.wait_for("Started pleinair-kiosk.service", 15)
+        ready_at = time.monotonic()
+        painted_after = machine.paints(CONFIRM_MINUTES)
+        journal = machine.journal()
+        splash, service, control = (seconds_of(pattern, journal) for pattern in (
+            r"Started pleinair-splash\.service", r"Started pleinair-kiosk\.service", r"Finished control\.service"))
+        painted = service + time.monotonic() - ready_at
+        begun = seconds_of(r"Starting pleinair-kiosk\.service", journal)
+        print(f"seconds after the kernel: control unit {control:.1f}, picture of the start {splash:.1f}, service begun "
+              f"{begun:.1f}, its first picture {service:.1f}, painting {painted:.1f} ({painted_after:.0f} s were waited for it)")
+        if splash - control > MOST_TO_SPLASH:
+            raise Failed(f"the picture of the start came {splash - control:.1f} s after the control unit")
+        machine.wait_for("Stopped pleinair-splash.service", 5)
 
 
 def partition(disk, name, size):
@@ -311,7 +355,7 @@ def main():
         if name.startswith("power_cut:"):
             power_cut(images, folder, int(name.split(":")[1]))
         else:
-            {"updates": updates, "copies": copies, "install": install}[name](images, folder)
+            {"boot": boot, "updates": updates, "copies": copies, "install": install}[name](images, folder)
     except Failed:
         traceback.print_exc(file=sys.stdout)
         print("all it left:", folder)

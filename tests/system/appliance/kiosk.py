@@ -74,16 +74,16 @@ def run_in_system(disk, kernel, script, stick_file, folder, minutes):
 
 
 def has_caption(screen):
-    """Whether a text lies over a painting: white on black that covers 63 %, from the upper left corner on
-    (pipeline/present/caption_picture.cpp)."""
+    """Whether a text lies over a painting: white on black that covers 63 %, from its upper left corner on
+    (pipeline/present/caption_picture.cpp). Only the box's upper rim is looked at, above the camera's own text."""
+    def brightest(x, y):
+        at = 3 * (y * screen.width + x)
+        return max(screen.pixels[at:at + 3])
+
     letters = min(screen.width, screen.height) // 38
-    dark = count = 0
-    for y in range(letters, 2 * letters):
-        for x in range(letters, 10 * letters):
-            at = 3 * (y * screen.width + x)
-            dark += max(screen.pixels[at:at + 3]) <= 100
-            count += 1
-    return dark > 0.5 * count
+    left = next((x for x in range(screen.width // 2) if brightest(x, screen.height // 2) > 60), 0)
+    rim = [brightest(x, y) for y in range(3 * letters // 4, letters) for x in range(left + letters, left + 6 * letters)]
+    return sum(each <= 110 for each in rim) > 0.7 * len(rim)
 
 
 class Kiosk:

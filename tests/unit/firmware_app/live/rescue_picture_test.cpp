@@ -53,6 +53,17 @@ TEST_F(RescuePictureTest, IsShownOnce) {
   EXPECT_EQ(picture.problem(), "");
 }
 
+TEST_F(RescuePictureTest, IsRefusedWhereNothingIsThereToBeWaitedFor) {
+  const auto none = [](const std::string& target) -> hal::Result<std::unique_ptr<hal::Output>> {
+    return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kNotFound,
+                                     .subject = target,
+                                     .problem = "there is no desktop",
+                                     .remedy = {}});
+  };
+  EXPECT_THROW(RescuePicture({"window"}, none, {.title = "Soon"}, std::nullopt, {}, clock_),
+               hal::Failure);
+}
+
 TEST_F(RescuePictureTest, IsShownAgainForTheWatchdog) {
   cards_.add({});
   RescuePicture picture = rescue(1s);
