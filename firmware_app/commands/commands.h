@@ -137,8 +137,6 @@ struct RescueOptions {
   /// Twice as long each time, as RescueBackOff, where a service manager gives a folder.
   bool backsOff = false;
   bool isProvisioned = false;  ///< by the last good site file of `pleinair run`
-  /// Once the picture is seen, another program may show on the display; until it does, it stays.
-  bool handsOver = false;
 };
 
 /// Shows a picture with a text on the displays of the configuration, drawn by the processor:

@@ -73,11 +73,6 @@ std::unique_ptr<hal::VirtualTerminal> takeConsole() {
   return taken ? *std::move(taken) : nullptr;
 }
 
-bool isSeen(const RescuePicture& picture) {
-  const std::vector<OutputProgress> screens = picture.progress();
-  return std::ranges::all_of(screens, [](const OutputProgress& each) { return each.shown > 0; });
-}
-
 hal::TimePoint endOf(const RescueOptions& options, hal::TimePoint now) {
   if (!options.time) return hal::kNoDeadline;
   const std::filesystem::path folder = runtimeFolder();
@@ -98,24 +93,17 @@ int showRescue(const RescueOptions& options) {
   if (options.isProvisioned) request.siteFile = keptSiteFile(stateFolder());
   const RescueJob job = rescueJobOf(request);
   if (!job.problem.empty()) spdlog::warn("{}", job.problem);
-  const std::unique_ptr<hal::VirtualTerminal> terminal =
-      options.handsOver ? nullptr : takeConsole();
+  const std::unique_ptr<hal::VirtualTerminal> terminal = takeConsole();
   RescuePicture picture(
       job.targets, [&](const std::string& target) { return hal::openOutput(target, job.options); },
       {.title = options.title, .detail = job.problem.empty() ? options.detail : job.problem},
       lastPainting(), reporter.renewal(), clock);
   const hal::TimePoint end = endOf(options, clock.now());
   std::string problem;
-  bool isHandedOver = false;
   while (Interrupt::received() == 0 && clock.now() < end) {
     if (terminal) terminal->follow();
     picture.step();
-    if (options.handsOver && !isHandedOver && isSeen(picture)) {
-      isHandedOver = true;
-      hal::handOverDisplays();
-      reporter.update({.outputs = picture.progress()}, "the picture is shown", clock.now());
-    }
-    std::string now = isHandedOver ? std::string() : picture.problem();
+    std::string now = picture.problem();
     if (now != problem && !now.empty()) spdlog::warn("{}", now);
     problem = std::move(now);
     if (reporter.isDue(clock.now())) {

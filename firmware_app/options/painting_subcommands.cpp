@@ -252,10 +252,6 @@ void addRescue(CLI::App& app, RescueOptions& options, std::function<int()>& chos
       .add_flag("--provisioned", options.isProvisioned,
                 "use the last good site file of `pleinair run --provisioning`")
       ->excludes(command.get_option("--config"));
-  command.add_flag(
-      "--hand-over", options.handsOver,
-      "let other programs show on the display once the picture is seen, which stays until "
-      "one does; follow no console");
   refuseEmptyValues(command);
   command.callback([&] { chosen = [&options] { return showRescue(options); }; });
 }

@@ -435,10 +435,6 @@ void enterConsole() {
   regainCards();
 }
 
-void handOverDisplays() {
-  handOverCards();
-}
-
 Result<std::unique_ptr<SurfaceOutput>> openDisplay(const std::string& name,
                                                    const DisplaySettings& settings, Cards& cards,
                                                    const Clock& clock) {

@@ -61,10 +61,6 @@ Result<std::unique_ptr<SurfaceOutput>> openDisplay(const std::string& name,
 void leaveConsole();
 void enterConsole();
 
-/// Lets go of all displays of the process with what they show, until another program sets their
-/// modes or this one ends; they are suspended, until enterConsole(). Any thread.
-void handOverDisplays();
-
 /// The connectors of all cards, with the sizes of the displays in them, from the kernel's list
 /// (`folder`, as /sys/class/drm). Opens no card.
 OutputListing listDisplays(const std::filesystem::path& folder = "/sys/class/drm");

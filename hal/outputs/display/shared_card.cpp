@@ -100,11 +100,6 @@ void SharedCard::yield() {
   card_->dropMaster();
 }
 
-void SharedCard::handOver() {
-  const std::scoped_lock lock(commits_);
-  card_->dropMaster();
-}
-
 void yieldCards() {
   OpenCards& open = openCards();
   const std::scoped_lock lock(open.mutex);
@@ -112,16 +107,6 @@ void yieldCards() {
   ++yields;
   for (const auto& [place, card] : open.cards) {
     if (const std::shared_ptr<SharedCard> shared = card.lock()) shared->yield();
-  }
-}
-
-void handOverCards() {
-  OpenCards& open = openCards();
-  const std::scoped_lock lock(open.mutex);
-  isYielded = true;
-  ++yields;
-  for (const auto& [place, card] : open.cards) {
-    if (const std::shared_ptr<SharedCard> shared = card.lock()) shared->handOver();
   }
 }
 

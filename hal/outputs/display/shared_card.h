@@ -60,17 +60,13 @@ class SharedCard {
   std::mutex commits_;  ///< held while one is made, and to yield between two
 
   friend void yieldCards();
-  friend void handOverCards();
   void yield();
-  void handOver();
 };
 
 /// Another console is about to come to the front: brings back what claimed CRTCs showed before, on
 /// all open cards, and is their master no more. Nothing is committed until regainCards(). Any
 /// thread; waits for a commit in progress.
 void yieldCards();
-/// As yieldCards(), but what is shown stays until another program sets a mode, or this one ends.
-void handOverCards();
 /// Ours is in front again: displays take the master and set their modes anew.
 void regainCards();
 /// Whether another console is in front. Any thread.

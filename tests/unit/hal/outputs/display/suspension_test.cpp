@@ -66,19 +66,6 @@ TEST_F(SuspensionTest, AnotherConsoleIsSeenAndThenThePictureAgain) {
   EXPECT_EQ(events_.size(), 1u);
 }
 
-TEST_F(SuspensionTest, ADisplayThatIsHandedOverKeepsItsPictureForAnotherProgram) {
-  FakeCardSpec& card = plug();
-  ASSERT_TRUE(start().has_value());
-  ASSERT_TRUE(showAndWait().has_value());
-  handOverDisplays();
-  attendFor(1h);
-  EXPECT_EQ(cause(), Cause::kConsole);
-  EXPECT_EQ(cards_.modesets, 1) << "the card is left alone";
-  output_.reset();
-  EXPECT_EQ(cards_.restores, 0) << "this program is no master any more";
-  EXPECT_FALSE(card.showsConsole) << "the picture stays";
-}
-
 TEST_F(SuspensionTest, AConsoleThatComesDuringAFlipEndsWhatIsQueued) {
   plug();
   ASSERT_TRUE(start().has_value());
