@@ -2,7 +2,7 @@
 """Scenarios of the machine image and of its updates, in QEMU. Each takes from ten minutes to an hour under emulation.
 
     image_test.py FOLDER_OF_IMAGES RESULTS prepare       makes what the others need, from `./dev image`'s root
-    image_test.py FOLDER_OF_IMAGES RESULTS SCENARIO      boot, install, updates, copies, or power_cut:SEED
+    image_test.py FOLDER_OF_IMAGES RESULTS SCENARIO      boot, crashes, install, updates, copies, or power_cut:SEED
 
 Exit status: 0; 1; 77, a skip: there is no image (./dev package; ./dev image), or a program is missing.
 """
@@ -37,6 +37,7 @@ DefaultDependencies=no
 Type=oneshot
 ExecStart=/usr/bin/true
 """
+CRASHING = "[Service]\nExecStart=\nExecStart=/usr/bin/false\n"
 CONFIRMED = r"slot {} is confirmed"
 MOST_TO_PICTURE = 9.0  # seconds: one of a machine that is not emulated
 CONFIRM_MINUTES = 45  # to the first painting and a minute more: 6 on an idle machine
@@ -89,10 +90,17 @@ class Images:
         return output
 
     def disk(self):
+        return self._disk("1.0")
+
+    def crashing_disk(self):
+        """Version 0.5, whose service ends at once whenever it is started."""
+        return self._disk("0.5", CRASHING)
+
+    def _disk(self, version, kiosk_settings=EMULATED):
         certificate = os.path.join(self._made, "certificate")  # without a key there is no bundle, which takes longest
         os.makedirs(certificate, exist_ok=True)
         shutil.copy(os.path.join(self._keys, "update.crt"), certificate)
-        folder = self._make("1.0", 40, keys=certificate)
+        folder = self._make(version, 40, kiosk_settings, keys=certificate)
         disk = os.path.join(folder, f"pleinair-{ARCH}.img")
         if boot_block(disk, folder).get("WORDS") != WORDS:
             kiosk.check.add_words(disk, folder, WORDS)
@@ -215,6 +223,19 @@ def boot(images, folder):
               f"{begun:.1f}, its first picture {service:.1f}, painting {painted:.1f} ({painted_after:.0f} s were waited for it)")
         if service - begun > MOST_TO_PICTURE:
             raise Failed(f"the first picture came {service - begun:.1f} s after the service was begun")
+
+
+def crashes(images, folder):
+    """A service that ends at once, over and over, gives way to the rescue picture, and is started again after it."""
+    disk = kiosk.overlay(images.crashing_disk(), os.path.join(folder, "disk.qcow2"))
+    with Kiosk(disk, folder) as machine:
+        machine.wait_for("Started pleinair-rescue@pleinair-kiosk.service", 15)
+        machine.screen("1-rescue")
+        for again in ("once", "twice"):
+            machine.wait_for(r"pleinair-rescue@pleinair-kiosk\.service: Triggering OnSuccess", 15)
+            machine.wait_for("Starting pleinair-kiosk.service", 1)
+            print(f"the service was started again, {again}", flush=True)
+            machine.wait_for("Started pleinair-rescue@pleinair-kiosk.service", 5)
 
 
 def partition(disk, name, size):
@@ -353,7 +374,7 @@ def main():
         if name.startswith("power_cut:"):
             power_cut(images, folder, int(name.split(":")[1]))
         else:
-            {"boot": boot, "updates": updates, "copies": copies, "install": install}[name](images, folder)
+            {"boot": boot, "crashes": crashes, "updates": updates, "copies": copies, "install": install}[name](images, folder)
     except Failed:
         traceback.print_exc(file=sys.stdout)
         print("all it left:", folder)

@@ -153,6 +153,11 @@ TEST_F(Units, LookForTheSetUpWhereItsPartitionIsMountedReadOnly) {
   EXPECT_THAT(rules, HasSubstr("ENV{ID_FS_TYPE}==\"" + valueIn(mount, "Type") + "\""));
 }
 
+TEST_F(Units, OfTheRescueForgetFailuresThatWouldKeepTheServiceFromStarting) {
+  EXPECT_THAT(valueIn(textOf(folder_.path() / "pleinair-rescue@.service"), "ExecStopPost"),
+              HasSubstr("reset-failed %i.service"));
+}
+
 TEST_F(Units, AreJudgedByWhatTheySay) {
   const fs::path kiosk = folder_.path() / "pleinair-kiosk.service";
   std::ofstream(kiosk, std::ios::app) << "\n[Service]\nPrivateNetwork=no\nSystemCallFilter=\n";
