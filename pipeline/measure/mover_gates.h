@@ -9,7 +9,7 @@
 
 namespace pleinair::measure {
 
-/// What a style's marks are, where it decides how they are judged on movers.
+/// The kind of a style's marks, as far as it decides how they are judged on movers.
 struct MoverMarks {
   bool areOnPaper = false;  ///< on bare paper, LOST says nothing
   /// Thin lines change by more than POP's 24 levels when they move by a part of a pixel: POP is

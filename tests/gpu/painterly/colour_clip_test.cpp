@@ -90,6 +90,7 @@ TEST_F(ClippedStroke, OfAMoverLeavesOutWhatIsOfAnotherColour) {
 TEST_F(ClippedStroke, OfTheRestOfThePictureIsWhole) {
   const Cover with = drawn(0, 1.0F);
   EXPECT_EQ(with.onEye, with.beside);
+  EXPECT_GT(with.onEye, 200);
 }
 
 class ColourClip : public PainterlyTest {};

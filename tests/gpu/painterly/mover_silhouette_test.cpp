@@ -108,7 +108,7 @@ TEST_F(MoverSilhouette, HasNoSpecksBesideIt) {
   EXPECT_LT(specks, 2.3) << "a pixel by itself: 3.4";
 }
 
-/// Paint of both sides is mixed there, and the step between their heights is of no thing.
+/// The paint of both sides is mixed there, and their heights differ by a step that no paint has.
 TEST_F(MoverSilhouette, HasNoRelief) {
   const double flat = paintedEdge({}).error;
   const double lit = paintedEdge({.relief = "3"}).error;

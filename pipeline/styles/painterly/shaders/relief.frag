@@ -62,6 +62,7 @@ void main() {
   float onMover = min(kCarriedRelief, kMoverRelief / max(relief, 1e-3));
   slope *= isModel ? kCarriedRelief : mix(1.0, onMover, moving);
   uint border = hasBorders ? texelFetch(borders, p, 0).r : 0u;
+  // The heights of the two sides differ by a step that no paint has.
   if (isMoverBorder(border)) slope = vec2(0.0);
   rgb = mixedAtBorder(p, border, rgb, colours);
   vec3 normal = normalize(vec3(-slope, 1.0));
