@@ -37,6 +37,12 @@ def overlay(disk, path):
     return path
 
 
+def copy_as_qcow2(disk, path):
+    """A disk of its own, which can keep a saved machine."""
+    run("qemu-img", "convert", "-O", "qcow2", disk, path)
+    return path
+
+
 def stick(path, *files):
     """A FAT stick without partitions, with these files on it."""
     size = sum(os.path.getsize(each) for each in files) // (1 << 20) + 8
@@ -90,7 +96,7 @@ class Kiosk:
     """Switched on from `with` to its end. Restarts of the machine itself are its own matter."""
 
     def __init__(self, disk, folder, devices=()):
-        """`disk`: a qcow2 file. `devices`: further arguments of QEMU."""
+        """`disk`: a qcow2 file. `devices`: further arguments of QEMU, such as ("-loadvm", NAME) for a machine that was saved on it."""
         self.folder = folder
         self._disk = disk
         self._devices = devices
@@ -110,6 +116,10 @@ class Kiosk:
 
     def __exit__(self, *error):
         self._machine.__exit__(*error)
+
+    def save(self, name):
+        """Keeps the machine as it is now, memory and all, on its disk: `-loadvm NAME` goes on from there."""
+        self._machine.command("human-monitor-command", **{"command-line": f"savevm {name}"})
 
     def cut_power(self):
         self._machine.__exit__()

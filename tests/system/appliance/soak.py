@@ -1,0 +1,90 @@
+"""Soaks: the installed program runs for long, and its memory, its descriptors and what it logs are judged (judges/growth.py)."""
+import os
+import re
+import shutil
+import subprocess
+import time
+
+from judges.growth import Soak
+from kiosk import Failed
+
+EVERY = 10  # seconds
+CHROOT_MINUTES = 90
+CHROOT_FRAMES = 200_000
+MACHINE_MINUTES = 30
+
+# A unit of the machine's own: the memory and the descriptors of the service that paints, and what the kernel says of a program
+# that has crashed.
+WATCH = r"""[Unit]
+After=pleinair-kiosk.service
+[Service]
+ExecStart=/bin/sh -c 'while sleep 10; do pid=$$(systemctl show --value -p MainPID pleinair-kiosk); \
+  set -- $$(grep RssAnon /proc/$$pid/status); echo "SOAK $$pid $$2 $$(ls /proc/$$pid/fd | wc -l)"; \
+  dmesg -c | grep -A 1 segfault; done'
+"""
+SAID = re.compile(r"\[ *([0-9.]+)\] \S+: SOAK (\d+) (\d+) (\d+)")
+
+
+def _judge(samples, logged, seconds):
+    soak = Soak(samples, logged, seconds)
+    print(soak, flush=True)
+    if soak.faults():
+        raise Failed("; ".join(soak.faults()))
+
+
+def _memory_and_descriptors(pid):
+    with open(f"/proc/{pid}/status") as file:
+        memory = int(re.search(r"RssAnon:\s+(\d+)", file.read()).group(1))
+    return memory, len(os.listdir(f"/proc/{pid}/fd"))
+
+
+def in_chroot(tar, folder):
+    """The image's system, unpacked, paints the synthetic camera at 160×120."""
+    if os.geteuid():
+        raise Failed("it takes root to enter the system")
+    root = os.path.join(folder, "root")
+    os.mkdir(root)
+    subprocess.run(["tar", "-C", root, "-xf", tar, "--exclude=./dev/*"], check=True)
+    for place in ("dev", "proc", "tmp"):
+        os.makedirs(os.path.join(root, place), exist_ok=True)
+    enter = (f"mount --rbind /dev {root}/dev && mount -t proc proc {root}/proc && mount -t tmpfs tmpfs {root}/tmp && "
+             f"exec chroot {root} /usr/bin/env HOME=/tmp LIBGL_ALWAYS_SOFTWARE=1 /usr/bin/pleinair run --camera synthetic "
+             f"--output headless --size 160x120 --set camera.rate=60 --frames {CHROOT_FRAMES}")
+    log = os.path.join(folder, "log")
+    with open(log, "w") as file:
+        process = subprocess.Popen(["unshare", "--mount", "sh", "-c", enter], stdout=file, stderr=file)
+    began = time.monotonic()
+    samples = []
+    try:
+        while process.poll() is None and time.monotonic() - began < 60 * CHROOT_MINUTES:
+            time.sleep(EVERY)
+            try:
+                samples.append((time.monotonic() - began, *_memory_and_descriptors(process.pid)))
+            except (FileNotFoundError, AttributeError, ProcessLookupError):
+                break
+        seconds = time.monotonic() - began
+    finally:
+        process.terminate()
+        status = process.wait()
+    shutil.rmtree(root, ignore_errors=True)
+    with open(log) as file:
+        said = file.read()
+    print(said[-1500:], flush=True)
+    if status:
+        raise Failed(f"exit status {status}")
+    _judge(samples, len(said), seconds)
+
+
+def of_machine(machine, confirmed, minutes_until):
+    """A machine that has painted for a minute goes on. `confirmed`: the journal's line then."""
+    machine.wait_for(confirmed, minutes_until)
+    before = len(machine.journal())
+    time.sleep(60 * MACHINE_MINUTES + Soak.SETTLED)
+    said = machine.journal()[before:]
+    found = SAID.findall(said)
+    if len({pid for _, pid, _, _ in found}) != 1:
+        raise Failed("the service was started again: " + said[-3000:])
+    first = float(found[0][0])
+    samples = [(float(at) - first, int(memory), int(descriptors)) for at, _, memory, descriptors in found]
+    own = sum(len(line) + 1 for line in said.splitlines() if " SOAK " not in line)
+    _judge(samples, own, samples[-1][0])
