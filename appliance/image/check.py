@@ -26,7 +26,16 @@ LATEST_MODE = 60  # seconds; a quick machine has its mode before the first look,
 FIRMWARE_MODES = 2  # GRUB is done at 1.3 times the moment of the firmware's first mode, however slow the machine
 STUCK_SECONDS = 60
 STUCK_SHARE = 0.15  # of a core: looking at the screen takes less, a painting several times as much
-FIRMWARE = "/usr/share/OVMF/OVMF_CODE_4M.fd"
+# Without AVX, which is slow to emulate, and new in QEMU 7.2: in four of ten starts, llvmpipe's code crashed there at vpgatherdd with
+# registers that gave a valid address (docs/measured.md, "The machine image").
+PROCESSOR = "Nehalem"
+# How each architecture's machine is emulated: the emulator and its machine, with the firmware (Debian's).
+EMULATORS = {
+    "amd64": (["qemu-system-x86_64", "-M", "q35", "-cpu", PROCESSOR, "-device", "virtio-vga"],
+              "/usr/share/OVMF/OVMF_CODE_4M.fd"),
+    "arm64": (["qemu-system-aarch64", "-M", "virt", "-cpu", "cortex-a72", "-device", "virtio-gpu-pci"],
+              "/usr/share/AAVMF/AAVMF_CODE.fd"),
+}
 WORDS = "pleinair.software_gl modules_load=vivid"
 EDIT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "root", "usr", "lib", "pleinair", "bin", "grub-editenv")
 
@@ -59,17 +68,17 @@ def add_words(disk, folder, words=WORDS):
 class Machine:
     """A QEMU machine that ends with the `with` block."""
 
-    def __init__(self, disk, folder, restarts=False, arguments=()):
+    def __init__(self, disk, folder, restarts=False, arguments=(), arch="amd64"):
         """`restarts`: a restart of the machine does not end it. `arguments`: further ones of QEMU."""
         self._socket = os.path.join(folder, "qmp")
+        emulator, firmware = EMULATORS[arch]
         self._process = subprocess.Popen(
-            ["qemu-system-x86_64", "-M", "q35", "-accel",
-             "kvm" if os.environ.get("PLEINAIR_KVM") else "tcg,thread=multi", "-cpu", "max",
+            [*emulator, "-accel", "kvm" if os.environ.get("PLEINAIR_KVM") else "tcg,thread=multi",
              "-smp", "2", "-m", "2048", "-nodefaults", "-display", "none",
              *(() if restarts else ("-no-reboot",)),
-             "-drive", f"if=pflash,format=raw,readonly=on,file={FIRMWARE}",
+             "-drive", f"if=pflash,format=raw,readonly=on,file={firmware}",
              "-drive", f"file={disk},if=none,id=disk,format={'raw' if disk.endswith('.img') else 'qcow2'}",
-             "-device", "virtio-blk-pci,drive=disk,bootindex=0", "-device", "virtio-vga",
+             "-device", "virtio-blk-pci,drive=disk,bootindex=0",
              "-qmp", f"unix:{self._socket},server,nowait", *arguments])
 
     def __enter__(self):
@@ -191,11 +200,11 @@ def watch(machine, folder, seconds):
         time.sleep(0.5)
 
 
-def judge(disk, folder, minutes):
+def judge(disk, folder, minutes, arch):
     """Starts the machine and looks at its screen. Returns the exit status. Throws Stuck."""
     waiting, paintings, texts = None, [], []
     firmware = Firmware()
-    with Machine(disk, folder) as machine:
+    with Machine(disk, folder, arch=arch) as machine:
         for at, screen in watch(machine, folder, 60 * minutes):
             kind = screen.kind()
             is_started = firmware.is_over(at, screen)
@@ -223,6 +232,7 @@ def judge(disk, folder, minutes):
 def main():
     disk, folder = sys.argv[1:3]
     minutes = float(sys.argv[3]) if len(sys.argv) > 3 else 15
+    arch = "arm64" if "arm64" in os.path.basename(disk) else "amd64"
     copy = os.path.join(folder, "disk.img")
     for start in (1, 2):
         shutil.rmtree(folder, ignore_errors=True)
@@ -230,7 +240,7 @@ def main():
         subprocess.run(["cp", "--sparse=always", disk, copy], check=True)
         add_words(copy, folder)
         try:
-            status = judge(copy, folder, minutes)
+            status = judge(copy, folder, minutes, arch)
             os.remove(copy)
             return status
         except Stuck:

@@ -48,7 +48,7 @@ class Fault : public std::runtime_error {
 /// Text from a file, made fit for a message of one line: control characters become spaces.
 inline std::string oneLine(std::string text) {
   std::ranges::replace_if(
-      text, [](char c) { return (c >= '\0' && c < ' ') || c == '\x7f'; }, ' ');
+      text, [](unsigned char c) { return c < ' ' || c == '\x7f'; }, ' ');
   return text;
 }
 

@@ -65,7 +65,7 @@ def run_in_system(disk, kernel, script, stick_file, folder, minutes):
     said = os.path.join(folder, "said.log")
     process = subprocess.Popen([
         "qemu-system-x86_64", "-M", "q35", "-accel", "kvm" if os.environ.get("PLEINAIR_KVM") else "tcg,thread=multi",
-        "-cpu", "max", "-smp", "2", "-m", "1024", "-nodefaults", "-display", "none", "-no-reboot",
+        "-cpu", check.PROCESSOR, "-smp", "2", "-m", "1024", "-nodefaults", "-display", "none", "-no-reboot",
         "-kernel", os.path.join(kernel, "vmlinuz"), "-initrd", os.path.join(kernel, "initrd.img"),
         "-append", f'{words} console=ttyS0 init=/bin/bash -- -c "{command}"', "-serial", f"file:{said}",
         *(word for file in (disk, stick_file, first)

@@ -15,12 +15,10 @@ MACHINE_MINUTES = 30
 
 # A unit of the machine's own: the memory and the descriptors of the service that paints, and what the kernel says of a program
 # that has crashed.
-WATCH = r"""[Unit]
-After=pleinair-kiosk.service
-[Service]
-ExecStart=/bin/sh -c 'while sleep 10; do pid=$$(systemctl show --value -p MainPID pleinair-kiosk); \
-  set -- $$(grep RssAnon /proc/$$pid/status); echo "SOAK $$pid $$2 $$(ls /proc/$$pid/fd | wc -l)"; \
-  dmesg -c | grep -A 1 segfault; done'
+WATCH = r"""[Service]
+ExecStart=/bin/sh -c 'while sleep 10; do dmesg -c | grep -A 1 segfault; \
+  pid=$$(systemctl show --value -p MainPID pleinair-kiosk); [ $$pid = 0 ] && continue; \
+  set -- $$(grep RssAnon /proc/$$pid/status); echo "SOAK $$pid $$2 $$(ls /proc/$$pid/fd | wc -l)"; done'
 """
 SAID = re.compile(r"\[ *([0-9.]+)\] \S+: SOAK (\d+) (\d+) (\d+)")
 
