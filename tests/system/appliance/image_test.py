@@ -34,12 +34,13 @@ VERSION_WORDS = "pleinair.trial_minutes={}"
 # A real-time thread that the emulation slows down has used up its time, and is killed for it (LimitRTTIME=).
 EMULATED = "[Service]\nLimitRTPRIO=0\n"
 HANGING = "[Service]\nType=simple\nWatchdogSec=0\nExecStart=\nExecStart=/usr/bin/sleep infinity\n"
-# Depends on nothing: what the machine itself needs until then is not the program's.
+# Depends on nothing: what the machine itself needs until then is not the program's. The journal's own first lines do not reach
+# the serial port.
 CONTROL = """[Unit]
 DefaultDependencies=no
 [Service]
 Type=oneshot
-ExecStart=/usr/bin/true
+ExecStart=/bin/sh -c 'read up idle </proc/uptime; echo "CONTROL $$up" >/dev/ttyS0'
 """
 CRASHING = "[Service]\nExecStart=\nExecStart=/usr/bin/false\n"
 CONFIRMED = r"slot {} is confirmed"
@@ -64,11 +65,11 @@ class Images:
         programs = ("qemu-system-x86_64", "qemu-img", "rauc", "mcopy", "genimage")
         return next((each + " is not installed" for each in programs if not shutil.which(each)), None)
 
-    def _make(self, version, minutes, kiosk_settings=EMULATED, keys=None):
-        """`kiosk_settings`: a drop-in of the service that paints."""
+    def _make(self, version, minutes, kiosk_settings=EMULATED, keys=None, control=None):
+        """`kiosk_settings`: a drop-in of the service that paints. `control`: a unit of the machine's start."""
         output = os.path.join(self._made, version)
         done = os.path.join(output, "done")
-        stamp = f"{os.path.getmtime(self._tar)} {VERSION_WORDS.format(minutes)} {CONTROL} {soak.WATCH}"
+        stamp = f"{os.path.getmtime(self._tar)} {VERSION_WORDS.format(minutes)} {control} {soak.WATCH}"
         if os.path.exists(done) and open(done).read() == stamp:
             return output
         shutil.rmtree(output, ignore_errors=True)
@@ -81,7 +82,9 @@ class Images:
         with open(os.path.join(place, "scenario.conf"), "w") as file:
             file.write(kiosk_settings)
         units = os.path.dirname(place)
-        for name, content, target in (("control", CONTROL, "sysinit"), ("watch", soak.WATCH, "pleinair-display")):
+        for name, content, target in (("control", control, "sysinit"), ("watch", soak.WATCH, "pleinair-display")):
+            if not content:
+                continue
             with open(os.path.join(units, name + ".service"), "w") as file:
                 file.write(content)
             wanted = os.path.join(units, target + ".target.wants")
@@ -102,19 +105,19 @@ class Images:
     def disk(self):
         return self._disk("1.0")
 
-    def kernel(self):
-        """The folder of the disk's kernel, initial file system and command line."""
-        return os.path.join(os.path.dirname(self.disk()), f"kernel-{ARCH}")
+    def timed_disk(self):
+        """Version 0.6, which says when a unit without dependencies has run."""
+        return self._disk("0.6", control=CONTROL)
 
     def crashing_disk(self):
         """Version 0.5, whose service ends at once whenever it is started."""
         return self._disk("0.5", CRASHING)
 
-    def _disk(self, version, kiosk_settings=EMULATED):
+    def _disk(self, version, kiosk_settings=EMULATED, control=None):
         certificate = os.path.join(self._made, "certificate")  # without a key there is no bundle, which takes longest
         os.makedirs(certificate, exist_ok=True)
         shutil.copy(os.path.join(self._keys, "update.crt"), certificate)
-        folder = self._make(version, 40, kiosk_settings, keys=certificate)
+        folder = self._make(version, 40, kiosk_settings, certificate, control)
         disk = os.path.join(folder, f"pleinair-{ARCH}.img")
         if boot_block(disk, folder).get("WORDS") != WORDS:
             kiosk.check.add_words(disk, folder, WORDS)
@@ -152,7 +155,7 @@ def updates(images, folder):
     good = kiosk.stick(os.path.join(folder, "good.img"), images.bundle())
     hanging = kiosk.stick(os.path.join(folder, "hanging.img"), images.hanging_bundle())
     # Without a site file, the screen says how to set the machine up.
-    disk = kiosk.overlay(set_up_disk(images, folder), os.path.join(folder, "disk.qcow2"))
+    disk = kiosk.overlay(set_up(images.disk(), folder), os.path.join(folder, "disk.qcow2"))
     with Kiosk(disk, folder) as machine:
         machine.wait_for(CONFIRMED.format("a"), CONFIRM_MINUTES)
         if kiosk.has_caption(machine.screen("1-painting")):
@@ -214,8 +217,8 @@ sleep 60
 
 
 def seconds_of(pattern, journal):
-    """The uptime at which the journal says so."""
-    match = re.search(r"\[ *([0-9.]+)\] systemd\[1\]: " + pattern, journal)
+    """The uptime that is the pattern's first group."""
+    match = re.search(pattern, journal)
     if not match:
         raise Failed(f"the journal does not say \"{pattern}\"")
     return float(match.group(1))
@@ -236,6 +239,11 @@ sleep 60
 """
 
 
+def kernel_of(disk):
+    """The folder of the kernel, initial file system and command line that belong to a disk of `Images`."""
+    return os.path.join(os.path.dirname(disk), f"kernel-{ARCH}")
+
+
 def slowness(disk, kernel, folder):
     """How much slower the emulated machine is than this one, right now."""
     program = os.environ["PLEINAIR_CPU_WORK"]
@@ -252,16 +260,17 @@ def slowness(disk, kernel, folder):
 
 def boot(images, folder):
     """The times of one start, beside a unit that depends on nothing; no console is seen."""
-    disk = kiosk.overlay(set_up_disk(images, folder), os.path.join(folder, "disk.qcow2"))
-    slower = slowness(disk, images.kernel(), folder)
+    made = images.timed_disk()
+    disk = kiosk.overlay(set_up(made, folder), os.path.join(folder, "disk.qcow2"))
+    slower = slowness(disk, kernel_of(made), folder)
     with Kiosk(disk, folder) as machine:
         machine.wait_for("Started pleinair-kiosk.service", 15)
         ready_at = time.monotonic()
         machine.paints(CONFIRM_MINUTES)
         journal = machine.journal()
-        control = seconds_of(r"Finished control\.service", journal)
-        begun = seconds_of(r"Starting pleinair-kiosk\.service", journal)
-        picture = seconds_of(r"Started pleinair-kiosk\.service", journal)
+        control = seconds_of(r"CONTROL ([0-9.]+)", journal)
+        begun = seconds_of(r"\[ *([0-9.]+)\] systemd\[1\]: Starting pleinair-kiosk\.service", journal)
+        picture = seconds_of(r"\[ *([0-9.]+)\] systemd\[1\]: Started pleinair-kiosk\.service", journal)
         painting = picture + time.monotonic() - ready_at
         print(f"seconds after the kernel: control unit {control:.1f}, service begun {begun:.1f}, its first picture "
               f"{picture:.1f}, painting {painting:.1f}")
@@ -303,7 +312,7 @@ def install(images, folder):
     """RAUC itself installs a bundle into the other slot, called by what udev starts for a stick; refused ones leave it alone."""
     disk = os.path.join(folder, "disk.img")
     kiosk.run("cp", "--sparse=always", images.disk(), disk)
-    kernel = images.kernel()
+    kernel = kernel_of(images.disk())
     script = os.path.join(folder, "script.sh")
     with open(script, "w") as file:
         file.write(INSTALL)
@@ -349,10 +358,10 @@ def copies(images, folder):
         raise Failed("the copy was written to")
 
 
-def set_up_disk(images, folder):
+def set_up(disk, folder):
     """A new machine's disk with a site.toml on the partition that any computer can write."""
     raw = os.path.join(folder, "disk.img")
-    kiosk.run("cp", "--sparse=always", images.disk(), raw)
+    kiosk.run("cp", "--sparse=always", disk, raw)
     site = os.path.join(folder, "site.toml")
     with open(site, "wb") as file:
         file.write(SITE)
@@ -395,7 +404,7 @@ def power_cut(images, folder, seed):
         kiosk.run("cp", "--sparse=always", confirmed_disk(images), disk)
         devices = ("-loadvm", SAVED)
     else:
-        kiosk.overlay(images.disk() if phase == "first start" else set_up_disk(images, folder), disk)
+        kiosk.overlay(images.disk() if phase == "first start" else set_up(images.disk(), folder), disk)
         devices = ()
     moment = chance.uniform(0, PHASES[phase])
     with Kiosk(disk, folder, devices) as machine:
