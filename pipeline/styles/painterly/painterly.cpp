@@ -24,7 +24,6 @@
 #include "pipeline/scene/render/model_hiding.h"
 #include "pipeline/styles/painterly/coherence.h"
 #include "pipeline/styles/painterly/layers.h"
-#include "pipeline/styles/painterly/painterly_shaders.h"
 #include "pipeline/styles/painterly/painterly_views.h"
 #include "pipeline/styles/painterly/palette.h"
 #include "pipeline/styles/painterly/reduced_images.h"
@@ -32,8 +31,6 @@
 #include "pipeline/styles/strokes/brush_cache.h"
 #include "pipeline/styles/strokes/stroke_borders.h"
 #include "pipeline/styles/strokes/stroke_drawing.h"
-#include "pipeline/styles/strokes/strokes_shaders.h"
-#include "pipeline/styles/substrate/substrate_shaders.h"
 
 namespace pleinair::styles {
 namespace {
@@ -126,25 +123,6 @@ struct Painting {
   std::vector<std::unique_ptr<Layer>> layers;
 };
 
-constexpr auto kMax = CoherenceGate::Side::kMax;
-constexpr auto kMin = CoherenceGate::Side::kMin;
-/// The limits that its paintings are held to (docs/measuring.md).
-constexpr std::array kGates{
-    CoherenceGate{CoherenceMeasure::kEw2, kMax, 0.6, false, GateMotion::kPan},
-    CoherenceGate{CoherenceMeasure::kEw2, kMax, 0.6, false, GateMotion::kOtherKnown},
-    CoherenceGate{CoherenceMeasure::kNHw2, kMax, 0.10, false, GateMotion::kPan},
-    CoherenceGate{CoherenceMeasure::kNHw2, kMax, 0.20, false, GateMotion::kOtherKnown},
-    CoherenceGate{CoherenceMeasure::kS10, kMin, 90, false, GateMotion::kPan},
-    CoherenceGate{CoherenceMeasure::kS10, kMin, 80, false, GateMotion::kOtherKnown},
-    CoherenceGate{CoherenceMeasure::kPop, kMax, 1, false, GateMotion::kPan},
-    CoherenceGate{CoherenceMeasure::kPop, kMax, 1.5, false, GateMotion::kOtherKnown},
-    CoherenceGate{CoherenceMeasure::kXFlk, kMax, 0.5},
-    CoherenceGate{CoherenceMeasure::kDep, kMin, 0.75, true},
-    CoherenceGate{CoherenceMeasure::kDet, kMin, 0.75},
-};
-
-constexpr std::array<std::string_view, 2> kPaperLooks{"sketch", "ink"};
-
 /// The same image as if a camera had taken all of it.
 scene::ArFrame withoutModels(const scene::ArFrame& frame) {
   scene::ArFrame image = frame;
@@ -153,11 +131,6 @@ scene::ArFrame withoutModels(const scene::ArFrame& frame) {
   image.motion.reset();
   image.surfaces.reset();
   return image;
-}
-
-/// Whether the brush's file is there and valid. Reads it; any thread. Errors: readBrushFile()'s.
-hal::Result<void> checkBrush(const config::ParameterValues& values) {
-  return checkBrushFile(painterlyParameters().typed(values).brushFile);
 }
 
 }  // namespace
@@ -387,27 +360,6 @@ const Texture& Painterly::State::show(const scene::ArFrame& frame, const Painter
       break;
   }
   return canvas->picture;
-}
-
-const StyleKind& painterlyKind() {
-  static const StyleKind kKind{
-      .name = "painterly",
-      .help = "layers of brush strokes that live (thesis chapter IV, and on)",
-      .defaults = painterlyParameters().defaults(),
-      .looks = painterlyLooks(),
-      .views = painterlyViews(),
-      .needs = {.surfaces = true,
-                .measuredMotion = true,
-                .segments = true,
-                .canvas = true,
-                .shading = scene::Shading::kSmooth},
-      .coherence = {.gates = kGates, .holdsAnchors = true, .paperLooks = kPaperLooks},
-      .shaders = {gpu::painterlyShaders(), gpu::strokesShaders(), gpu::substrateShaders()},
-      .check = checkBrush,
-      .make = [](const gpu::ShaderLibrary& library) -> std::unique_ptr<Style> {
-        return std::make_unique<Painterly>(library);
-      }};
-  return kKind;
 }
 
 Painterly::Painterly(const gpu::ShaderLibrary& library)
