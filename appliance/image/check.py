@@ -106,7 +106,7 @@ class Machine:
             if "error" in answer:
                 raise RuntimeError(f"{name}: {answer['error']['desc']}")
             if "return" in answer:
-                return
+                return answer["return"]
 
     def is_running(self):
         return self._process.poll() is None

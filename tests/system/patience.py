@@ -7,16 +7,16 @@ import time
 RUNS = 5
 
 
-def here(program):
-    """Seconds that a program takes on this machine."""
+def host_seconds(program):
+    """How long a program takes on this machine."""
     begin = time.monotonic()
     subprocess.run([program], check=True, stdout=subprocess.DEVNULL)
     return time.monotonic() - begin
 
 
-def of(seconds_here, seconds_there):
-    """Both lists are of one program's runs."""
-    outside, inside = statistics.median(seconds_here), statistics.median(seconds_there)
+def ratio(host, guest):
+    """Of the seconds that one program's runs took."""
+    outside, inside = statistics.median(host), statistics.median(guest)
     patience = max(1, inside / outside)
     print(f"a fixed program takes {1000 * outside:.0f} ms here and {inside:.2f} s in the guest: "
           f"patience {patience:.1f}, at a load of {os.getloadavg()[0]:.1f}")
@@ -29,8 +29,8 @@ def measure(guest):
     guest.run("cp cpu_work /tmp; /tmp/cpu_work", seconds=60)
     outside, inside = [], []
     for _ in range(RUNS):
-        outside.append(here(os.path.join(guest.folder, "cpu_work")))
+        outside.append(host_seconds(os.path.join(guest.folder, "cpu_work")))
         taken = guest.run("a=$EPOCHREALTIME; /tmp/cpu_work >/dev/null; b=$EPOCHREALTIME; echo $a $b", seconds=60).output
         begin, end = (float(each) for each in taken.split())
         inside.append(end - begin)
-    return of(outside, inside)
+    return ratio(outside, inside)

@@ -119,7 +119,12 @@ class Kiosk:
 
     def save(self, name):
         """Keeps the machine as it is now, memory and all, on its disk: `-loadvm NAME` goes on from there."""
-        self._machine.command("human-monitor-command", **{"command-line": f"savevm {name}"})
+        said = self._machine.command("human-monitor-command", **{"command-line": f"savevm {name}"})
+        if said:
+            raise Failed("the machine cannot be saved: " + said)
+
+    def is_running(self):
+        return self._machine.is_running()
 
     def cut_power(self):
         self._machine.__exit__()

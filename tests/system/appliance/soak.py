@@ -5,13 +5,15 @@ import shutil
 import subprocess
 import time
 
+from judges import closing_line
 from judges.growth import Soak
-from kiosk import Failed
+from kiosk import Failed, check
 
 EVERY = 10  # seconds
 CHROOT_MINUTES = 90
 CHROOT_FRAMES = 200_000
 MACHINE_MINUTES = 30
+LEAST_SHARE = 0.9  # of the time, for which there are samples
 
 # A unit of the machine's own: the memory and the descriptors of the service that paints, and what the kernel says of a program
 # that has crashed.
@@ -23,11 +25,16 @@ ExecStart=/bin/sh -c 'while sleep 10; do dmesg -c | grep -A 1 segfault; \
 SAID = re.compile(r"\[ *([0-9.]+)\] \S+: SOAK (\d+) (\d+) (\d+)")
 
 
-def _judge(samples, logged, seconds):
-    soak = Soak(samples, logged, seconds)
+def _judge(samples, logged, seconds, least_seconds):
+    try:
+        soak = Soak(samples, logged, seconds)
+    except ValueError as error:
+        raise Failed(str(error)) from None
     print(soak, flush=True)
-    if soak.faults():
-        raise Failed("; ".join(soak.faults()))
+    if soak.seconds() < LEAST_SHARE * least_seconds:
+        raise Failed(f"it was looked at for {soak.seconds():.0f} s only")
+    if soak.violations():
+        raise Failed("; ".join(soak.violations()))
 
 
 def _memory_and_descriptors(pid):
@@ -36,53 +43,65 @@ def _memory_and_descriptors(pid):
     return memory, len(os.listdir(f"/proc/{pid}/fd"))
 
 
-def in_chroot(tar, folder):
-    """The image's system, unpacked, paints the synthetic camera at 160×120."""
-    if os.geteuid():
-        raise Failed("it takes root to enter the system")
+def soak_chroot(tar, folder):
+    """The image's system, unpacked, paints the synthetic camera at 160×120. Takes root."""
     root = os.path.join(folder, "root")
     os.mkdir(root)
     subprocess.run(["tar", "-C", root, "-xf", tar, "--exclude=./dev/*"], check=True)
     for place in ("dev", "proc", "tmp"):
         os.makedirs(os.path.join(root, place), exist_ok=True)
-    enter = (f"mount --rbind /dev {root}/dev && mount -t proc proc {root}/proc && mount -t tmpfs tmpfs {root}/tmp && "
-             f"exec chroot {root} /usr/bin/env HOME=/tmp LIBGL_ALWAYS_SOFTWARE=1 /usr/bin/pleinair run --camera synthetic "
+    enter = (f"mount --rbind /dev '{root}/dev' && mount -t proc proc '{root}/proc' && mount -t tmpfs tmpfs '{root}/tmp' && "
+             f"exec chroot '{root}' /usr/bin/env HOME=/tmp LIBGL_ALWAYS_SOFTWARE=1 /usr/bin/pleinair run --camera synthetic "
              f"--output headless --size 160x120 --set camera.rate=60 --frames {CHROOT_FRAMES}")
     log = os.path.join(folder, "log")
-    with open(log, "w") as file:
-        process = subprocess.Popen(["unshare", "--mount", "sh", "-c", enter], stdout=file, stderr=file)
     began = time.monotonic()
     samples = []
+    with open(log, "w") as file:
+        process = subprocess.Popen(["unshare", "--mount", "sh", "-c", enter], stdout=file, stderr=file)
     try:
         while process.poll() is None and time.monotonic() - began < 60 * CHROOT_MINUTES:
             time.sleep(EVERY)
             try:
                 samples.append((time.monotonic() - began, *_memory_and_descriptors(process.pid)))
             except (FileNotFoundError, AttributeError, ProcessLookupError):
-                break
+                break  # it has ended
         seconds = time.monotonic() - began
-    finally:
         process.terminate()
-        status = process.wait()
-    shutil.rmtree(root, ignore_errors=True)
+        status = process.wait(60)
+    except subprocess.TimeoutExpired:
+        raise Failed("it does not end when it is told to") from None
+    finally:
+        process.kill()
+        process.wait()
+        shutil.rmtree(root, ignore_errors=True)
     with open(log) as file:
         said = file.read()
-    print(said[-1500:], flush=True)
     if status:
-        raise Failed(f"exit status {status}")
-    _judge(samples, len(said), seconds)
+        raise Failed(f"exit status {status}: {said[-1500:]}")
+    shown = closing_line.ledger(said)["shown"]
+    print(f"{shown} frames were shown", flush=True)
+    least = seconds if shown >= CHROOT_FRAMES else 60 * CHROOT_MINUTES
+    _judge(samples, len(said), seconds, least - Soak.SETTLED)
 
 
-def of_machine(machine, confirmed, minutes_until):
+def soak_machine(machine, confirmed, minutes_until):
     """A machine that has painted for a minute goes on. `confirmed`: the journal's line then."""
     machine.wait_for(confirmed, minutes_until)
     before = len(machine.journal())
-    time.sleep(60 * MACHINE_MINUTES + Soak.SETTLED)
+    end = time.monotonic() + 60 * MACHINE_MINUTES + Soak.SETTLED
+    while time.monotonic() < end:
+        if not machine.is_running():
+            raise Failed("the machine has ended")
+        time.sleep(EVERY)
     said = machine.journal()[before:]
     found = SAID.findall(said)
-    if len({pid for _, pid, _, _ in found}) != 1:
-        raise Failed("the service was started again: " + said[-3000:])
+    if not found or "segfault" in said or len({pid for _, pid, _, _ in found}) != 1:
+        raise Failed("the service did not run all the time: " + said[-3000:])
+    screen = machine.screen("end")
+    time.sleep(60)
+    if not check.MOVED < machine.screen("end-a-minute-later").changed(screen) < 1.0:
+        raise Failed("it no longer paints")
     first = float(found[0][0])
     samples = [(float(at) - first, int(memory), int(descriptors)) for at, _, memory, descriptors in found]
     own = sum(len(line) + 1 for line in said.splitlines() if " SOAK " not in line)
-    _judge(samples, own, samples[-1][0])
+    _judge(samples, own, samples[-1][0], 60 * MACHINE_MINUTES)

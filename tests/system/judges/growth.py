@@ -3,8 +3,8 @@ import statistics
 
 
 def per_hour(samples):
-    """The growth an hour of [(seconds, value)], as the median of the slopes between all pairs (Theil and Sen), which single high
-    readings do not move. It takes three samples or more."""
+    """The growth an hour of [(seconds, value)], as the median of the slopes between all pairs (Theil–Sen estimator), which
+    single high readings do not move. It takes three samples or more."""
     if len(samples) < 3:
         raise ValueError(f"{len(samples)} samples say nothing about growth")
     slopes = [(v - u) / (t - s) for i, (s, u) in enumerate(samples) for t, v in samples[i + 1:] if t > s]
@@ -21,6 +21,8 @@ class Soak:
 
     def __init__(self, samples, logged, seconds):
         self._samples = [each for each in samples if each[0] >= self.SETTLED]
+        if len(self._samples) < 3:
+            raise ValueError(f"{len(self._samples)} samples after {self.SETTLED} s say nothing")
         self._logged_per_day = logged * 86400 / seconds
         self._memory_per_hour = per_hour([(t, memory) for t, memory, _ in self._samples])
 
@@ -31,15 +33,19 @@ class Soak:
                 f"own {min(memory) / 1024:.1f} to {max(memory) / 1024:.1f} MiB, {self._memory_per_hour:+.0f} KiB an hour; "
                 f"{min(descriptors)} to {max(descriptors)} descriptors; {self._logged_per_day / (1 << 20):.2f} MiB of log a day")
 
-    def faults(self):
-        """What is wrong, in words; empty if nothing is."""
+    def seconds(self):
+        """What is judged, from its first sample to the last."""
+        return self._samples[-1][0] - self._samples[0][0]
+
+    def violations(self):
+        """In words; empty if all is well."""
         found = []
         if self._memory_per_hour > self.MOST_KIB_PER_HOUR:
             found.append(f"memory grows by {self._memory_per_hour:.0f} KiB an hour")
-        half = len(self._samples) // 2
-        before, after = (max(each[2] for each in part) for part in (self._samples[:half], self._samples[half:]))
+        third = max(1, len(self._samples) // 3)
+        before, after = (statistics.median(each[2] for each in part) for part in (self._samples[:third], self._samples[-third:]))
         if after > before:
-            found.append(f"{before} descriptors were open, and then {after}")
+            found.append(f"{before:.0f} descriptors were open, and then {after:.0f}")
         if self._logged_per_day > self.MOST_JOURNAL:
             found.append(f"{self._logged_per_day / (1 << 20):.0f} MiB of log a day")
         return found
