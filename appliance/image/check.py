@@ -26,9 +26,11 @@ LATEST_MODE = 60  # seconds; a quick machine has its mode before the first look,
 FIRMWARE_MODES = 2  # GRUB is done at 1.3 times the moment of the firmware's first mode, however slow the machine
 STUCK_SECONDS = 60
 STUCK_SHARE = 0.15  # of a core: looking at the screen takes less, a painting several times as much
-# Without AVX, which is slow to emulate, and new in QEMU 7.2: in four of ten starts, llvmpipe's code crashed there at vpgatherdd with
+HAS_KVM = bool(os.environ.get("PLEINAIR_KVM"))
+ACCELERATOR = "kvm" if HAS_KVM else "tcg,thread=multi"
+# Emulated without AVX, which is slow, and new in QEMU 7.2: in four of ten starts, llvmpipe's code crashed there at vpgatherdd with
 # registers that gave a valid address (docs/measured.md, "The machine image").
-PROCESSOR = "Nehalem"
+PROCESSOR = "host" if HAS_KVM else "Nehalem"
 # How each architecture's machine is emulated: the emulator and its machine, with the firmware (Debian's).
 EMULATORS = {
     "amd64": (["qemu-system-x86_64", "-M", "q35", "-cpu", PROCESSOR, "-device", "virtio-vga"],
@@ -73,8 +75,7 @@ class Machine:
         self._socket = os.path.join(folder, "qmp")
         emulator, firmware = EMULATORS[arch]
         self._process = subprocess.Popen(
-            [*emulator, "-accel", "kvm" if os.environ.get("PLEINAIR_KVM") else "tcg,thread=multi",
-             "-smp", "2", "-m", "2048", "-nodefaults", "-display", "none",
+            [*emulator, "-accel", ACCELERATOR, "-smp", "2", "-m", "2048", "-nodefaults", "-display", "none",
              *(() if restarts else ("-no-reboot",)),
              "-drive", f"if=pflash,format=raw,readonly=on,file={firmware}",
              "-drive", f"file={disk},if=none,id=disk,format={'raw' if disk.endswith('.img') else 'qcow2'}",

@@ -64,8 +64,8 @@ def run_in_system(disk, kernel, script, stick_file, folder, minutes):
     command = f"modprobe -a vfat nls_cp437 nls_ascii; mount -t vfat -o ro /dev/vdc /mnt; exec bash /mnt/{os.path.basename(script)}"
     said = os.path.join(folder, "said.log")
     process = subprocess.Popen([
-        "qemu-system-x86_64", "-M", "q35", "-accel", "kvm" if os.environ.get("PLEINAIR_KVM") else "tcg,thread=multi",
-        "-cpu", check.PROCESSOR, "-smp", "2", "-m", "1024", "-nodefaults", "-display", "none", "-no-reboot",
+        "qemu-system-x86_64", "-M", "q35", "-accel", check.ACCELERATOR, "-cpu", check.PROCESSOR,
+        "-smp", "2", "-m", "1024", "-nodefaults", "-display", "none", "-no-reboot",
         "-kernel", os.path.join(kernel, "vmlinuz"), "-initrd", os.path.join(kernel, "initrd.img"),
         "-append", f'{words} console=ttyS0 init=/bin/bash -- -c "{command}"', "-serial", f"file:{said}",
         *(word for file in (disk, stick_file, first)

@@ -10,6 +10,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from growth import Soak, per_hour  # noqa: E402
 
+
 def readings(kib_per_hour=0.0, descriptors=lambda seconds: 40, minutes=90):
     """Every ten seconds: caches fill for ten minutes; 256 KiB of noise."""
     noise = random.Random(1)
