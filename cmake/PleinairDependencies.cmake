@@ -10,9 +10,10 @@ find_package(CLI11 REQUIRED)
 pkg_check_modules(LIBAV REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil libswresample libswscale)
 # Colours of HDR and wide-gamut films (docs/decisions/0040-film-colours.md).
 pkg_check_modules(ZIMG REQUIRED IMPORTED_TARGET zimg)
-# Pictures in JPEG and TIFF, with a colour profile (docs/decisions/0045-written-formats.md).
+# Pictures in PNG, JPEG and TIFF, with a colour profile (docs/decisions/0045-written-formats.md).
 pkg_check_modules(JPEG REQUIRED IMPORTED_TARGET libjpeg)
 pkg_check_modules(LCMS REQUIRED IMPORTED_TARGET lcms2)
+pkg_check_modules(PNG REQUIRED IMPORTED_TARGET libpng)
 pkg_check_modules(TIFF REQUIRED IMPORTED_TARGET libtiff-4)
 # Digests of records and work instructions.
 pkg_check_modules(NETTLE REQUIRED IMPORTED_TARGET nettle)

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "hal/cameras/recording/picture_source.h"
+#include "hal/media/picture_paths.h"
 #include "hal/error.h"
 #include "hal/numbered_path.h"
 #include "hal/outputs/movie/movie_output.h"
@@ -48,7 +48,7 @@ struct Place {
     const fs::path name = file.path.filename();
     if (folderOf(file.path) != canonicalPath) return false;
     return pattern ? pattern->numberOf(name.string()).has_value()
-                   : hal::recording::isPictureName(name);
+                   : hal::isPictureName(name);
   }
 };
 

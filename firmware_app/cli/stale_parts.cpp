@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "firmware_app/cli/path_collisions.h"
-#include "hal/cameras/recording/picture_source.h"
+#include "hal/media/picture_paths.h"
 #include "hal/numbered_path.h"
 #include "hal/outputs/movie/movie_output.h"
 #include "hal/pending_file.h"
@@ -22,7 +22,7 @@ std::vector<std::string> stalePartNotices(const std::filesystem::path& output) {
       notices.push_back(fmt::format(
           "{}: was left by a run that was killed; it plays up to there: rename it, or remove it",
           part.string()));
-    } else if (hal::recording::isPictureName(name)) {
+    } else if (hal::isPictureName(name)) {
       notices.push_back(
           fmt::format("{}: was left by a run that was killed; remove it", part.string()));
     }

@@ -17,9 +17,9 @@
 #include "firmware_app/config/camera_selection.h"
 #include "firmware_app/config/configured_parts.h"
 #include "firmware_app/offline/calibration_progress.h"
-#include "hal/cameras/recording/picture_source.h"
+#include "hal/media/picture_paths.h"
 #include "hal/cameras/recording/recording.h"
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "hal/numbered_path.h"
 #include "hal/overloaded.h"
 #include "hal/pending_file.h"
@@ -49,7 +49,7 @@ constexpr hal::Duration kPollInterval = std::chrono::milliseconds(100);
 bool arePhotographs(const fs::path& input) {
   std::error_code ignored;
   return fs::is_directory(input, ignored) || hal::looksNumbered(input) ||
-         hal::recording::isPictureName(input);
+         hal::isPictureName(input);
 }
 
 /// Whether `output` is an existing calibration, which will be replaced. Refuses any other existing

@@ -14,7 +14,7 @@
 #include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/commands/commands.h"
 #include "hal/cameras/recording/recording.h"
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "hal/pending_file.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/present/labelled_sheet.h"

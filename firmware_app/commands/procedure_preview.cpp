@@ -19,6 +19,7 @@
 #include "firmware_app/procedure/step_pictures.h"
 #include "firmware_app/procedure/step_tile.h"
 #include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "hal/pending_file.h"
 #include "pipeline/present/labelled_sheet.h"
 #include "pipeline/procedure/procedure_file.h"

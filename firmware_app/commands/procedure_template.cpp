@@ -16,7 +16,7 @@
 #include "firmware_app/commands/procedure.h"
 #include "firmware_app/repair_station/seen_tags.h"
 #include "hal/cameras/recording/recording.h"
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "hal/pending_file.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/inspection/template_file.h"

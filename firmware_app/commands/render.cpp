@@ -17,7 +17,7 @@
 #include "firmware_app/config/configuration_sections.h"
 #include "firmware_app/config/configured_parts.h"
 #include "firmware_app/overlay/procedure_film.h"
-#include "hal/cameras/recording/picture_source.h"
+#include "hal/media/picture_paths.h"
 #include "hal/cameras/recording/recording.h"
 #include "hal/numbered_path.h"
 #include "hal/outputs/movie/movie_output.h"
@@ -140,7 +140,7 @@ void refuseCollisionsOf(const std::vector<RenderJob>& jobs, std::vector<NamedPat
 /// Says which files of a folder are left out because their names are no pictures'.
 void reportIgnoredFiles(const fs::path& input) {
   constexpr std::size_t kNamed = 3;
-  std::vector<std::string> names = hal::recording::otherFilesIn(input);
+  std::vector<std::string> names = hal::otherFilesIn(input);
   if (names.empty()) return;
   const std::size_t count = names.size();
   if (count > kNamed) names.resize(kNamed);

@@ -16,7 +16,7 @@
 #include "firmware_app/scene/scene_observer.h"
 #include "firmware_app/scene/scene_warnings.h"
 #include "hal/cameras/recording/recording.h"
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "hal/pending_file.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/present/contact_sheet.h"

@@ -15,7 +15,7 @@
 #include "firmware_app/thesis/thesis_bench.h"
 #include "firmware_app/thesis/thesis_figures.h"
 #include "firmware_app/thesis/thesis_page.h"
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "hal/pending_file.h"
 
 namespace pleinair::app {

@@ -20,7 +20,7 @@
 #include "firmware_app/offline/poses_file.h"
 #include "firmware_app/scene/scene_observer.h"
 #include "firmware_app/scene/scene_warnings.h"
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "hal/outputs/frames/frames_output.h"
 #include "hal/outputs/registry.h"
 #include "hal/overloaded.h"

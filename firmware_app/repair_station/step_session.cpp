@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "firmware_app/repair_station/record_folder.h"
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 
 namespace pleinair::app {
 namespace {

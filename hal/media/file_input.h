@@ -2,14 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <utility>
 
 #include "hal/error.h"
 #include "hal/file_descriptor.h"
-#include "hal/media/handles.h"
 
-namespace pleinair::hal::libav {
+namespace pleinair::hal {
 
 /// A regular file opened for reading; its name is never interpreted as a URL. Other pipes than
 /// standard input, and devices, are refused, since they could block.
@@ -34,23 +32,4 @@ class FileInput {
   std::int64_t sizeBytes_ = 0;
 };
 
-/// An AVIOContext over a FileInput. A demuxer that reads through it can open no other file.
-class DemuxerIo {
- public:
-  explicit DemuxerIo(FileInput file);
-  AVIOContext* context() { return io_.get(); }
-  const FileInput& file() const { return state_->file; }
-
- private:
-  struct State {
-    FileInput file;
-    std::int64_t position = 0;
-  };
-  static int read(void* opaque, std::uint8_t* buffer, int size);
-  static std::int64_t seek(void* opaque, std::int64_t offset, int whence);
-
-  std::unique_ptr<State> state_;
-  IoContext io_;
-};
-
-}  // namespace pleinair::hal::libav
+}  // namespace pleinair::hal

@@ -39,7 +39,7 @@ class PictureEncoder {
 };
 
 /// For RGB8. PNG is written for speed, TIFF with LZW, JPEG without chroma subsampling from quality
-/// 90 up. Errors: kUnsupported (format; libav without a PNG encoder).
+/// 90 up. Errors: kUnsupported (format).
 Result<std::unique_ptr<PictureEncoder>> openPictureEncoder(PictureFileKind kind, FrameFormat format,
                                                            const PictureFileOptions& options = {});
 

@@ -2,8 +2,6 @@
 
 #include "hal/media/frame_pixels.h"
 #include "hal/media/picture_decoder.h"
-#include "hal/media/png_encoder.h"
-#include "hal/pending_file.h"
 
 namespace pleinair::hal {
 namespace {
@@ -67,21 +65,6 @@ Result<Rgb16Image> readRgb16(const std::filesystem::path& path) {
     }
   }
   return picture;
-}
-
-Result<std::vector<std::uint8_t>> encodePng(const ImageView& picture) {
-  Result<libav::PngEncoder> encoder = libav::PngEncoder::open(picture.format);
-  if (!encoder) return tl::unexpected(encoder.error());
-  return encoder->encode(picture);
-}
-
-Result<void> writePng(const std::filesystem::path& path, const ImageView& picture) {
-  const Result<std::vector<std::uint8_t>> bytes = encodePng(picture);
-  if (!bytes) return tl::unexpected(bytes.error());
-  Result<PendingFile> file = PendingFile::create(path);
-  if (!file) return tl::unexpected(file.error());
-  if (Result<void> written = file->write(*bytes); !written) return written;
-  return file->publish();
 }
 
 }  // namespace pleinair::hal

@@ -37,11 +37,4 @@ struct Rgb16Image {
 /// Errors: as readPicture(), and kInvalidInput (another depth, or no colour).
 Result<Rgb16Image> readRgb16(const std::filesystem::path& path);
 
-/// Encodes RGB8, RGBA8 or grey as a PNG file in memory. Errors: kUnsupported (format).
-Result<std::vector<std::uint8_t>> encodePng(const ImageView& picture);
-
-/// Writes RGB8, RGBA8 or grey as PNG, under a temporary name until complete. Errors: kNotFound (no
-/// such folder), kPermissionDenied, kNoSpace, kUnsupported (format), kIo.
-Result<void> writePng(const std::filesystem::path& path, const ImageView& picture);
-
 }  // namespace pleinair::hal

@@ -5,7 +5,7 @@
 #include <limits>
 #include <string_view>
 
-namespace pleinair::hal::libav {
+namespace pleinair::hal {
 namespace {
 
 using Bytes = std::span<const std::uint8_t>;
@@ -203,4 +203,4 @@ std::optional<std::string_view> defectOf(PictureKind kind, Bytes bytes) {
   return std::nullopt;
 }
 
-}  // namespace pleinair::hal::libav
+}  // namespace pleinair::hal

@@ -7,7 +7,7 @@
 
 #include "hal/pixel_format.h"
 
-namespace pleinair::hal::libav {
+namespace pleinair::hal {
 
 enum class PictureKind { kPng, kJpeg, kBmp, kTiff, kWebp, kPnm, kHeif };
 
@@ -23,4 +23,4 @@ std::optional<FrameSize> peekPictureSize(PictureKind kind, std::span<const std::
 /// end". Nothing if no such defect is found.
 std::optional<std::string_view> defectOf(PictureKind kind, std::span<const std::uint8_t> bytes);
 
-}  // namespace pleinair::hal::libav
+}  // namespace pleinair::hal

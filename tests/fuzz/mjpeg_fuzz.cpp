@@ -17,7 +17,7 @@ constexpr std::int64_t kMaxPixels = 1'000'000;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::span<const std::uint8_t> bytes(data, size);
-  const auto picture = hal::libav::peekPictureSize(hal::libav::PictureKind::kJpeg, bytes);
+  const auto picture = hal::peekPictureSize(hal::PictureKind::kJpeg, bytes);
   if (picture && hal::isAcceptedSize(*picture) && picture->pixels() > kMaxPixels) return -1;
   const auto decoded = hal::libav::decodeMotionJpeg(bytes, "camera");
   if (!decoded) {

@@ -14,9 +14,9 @@ using namespace pleinair;
 constexpr std::int64_t kMaxPixels = 1'000'000;
 
 bool isSlow(std::span<const std::uint8_t> bytes) {
-  const auto kind = hal::libav::pictureKindOf(bytes);
+  const auto kind = hal::pictureKindOf(bytes);
   if (!kind) return false;
-  const std::optional<hal::FrameSize> size = hal::libav::peekPictureSize(*kind, bytes);
+  const std::optional<hal::FrameSize> size = hal::peekPictureSize(*kind, bytes);
   return size && hal::isAcceptedSize(*size) && size->pixels() > kMaxPixels;
 }
 
@@ -70,8 +70,8 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
                                                std::size_t most, unsigned seed) {
   const std::size_t mutated = LLVMFuzzerMutate(data, size, most);
   const std::span<std::uint8_t> bytes(data, mutated);
-  const auto kind = pleinair::hal::libav::pictureKindOf(bytes);
-  if (kind == pleinair::hal::libav::PictureKind::kPng && seed % 4 != 0) mendPng(bytes);
+  const auto kind = pleinair::hal::pictureKindOf(bytes);
+  if (kind == pleinair::hal::PictureKind::kPng && seed % 4 != 0) mendPng(bytes);
   return mutated;
 }
 #endif

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 
 namespace pleinair::golden {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <gmock/gmock.h>
 
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "tests/program/program.h"
 #include "tests/support/temporary_folder.h"
 

@@ -12,7 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "tests/program/program.h"
 #include "tests/support/media_files.h"
 #include "tests/support/notify_socket.h"

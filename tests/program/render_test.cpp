@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "tests/program/program.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"

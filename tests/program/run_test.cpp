@@ -1,10 +1,14 @@
 // Live painting through the program's own door: on an X server of the test's own, and without one.
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <regex>
 #include <stdexcept>
@@ -17,6 +21,7 @@
 #include <unistd.h>
 
 #include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "tests/program/program.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"
@@ -85,6 +90,52 @@ TEST_F(Run, PaintsIntoAFileWithoutADisplay) {
   ASSERT_TRUE(played);
   EXPECT_EQ(played->frames.size(), 12u) << "the recording goes on at its start";
   EXPECT_GE(played->times.back(), 11 * 40ms) << "in real time";
+}
+
+/// The files that a process has mapped. Empty before its program is loaded, and once it has ended.
+std::string mapsOf(pid_t process) {
+  const std::string path = "/proc/" + std::to_string(process) + "/maps";
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "re"),
+                                                             &std::fclose);
+  std::string maps;
+  if (file == nullptr) return maps;
+  std::array<char, 4096> part{};
+  while (const std::size_t got = std::fread(part.data(), 1, part.size(), file.get())) {
+    maps.append(part.data(), got);
+  }
+  return maps;
+}
+
+/// Whether the program maps a library while it runs.
+bool loads(const std::string& library, std::vector<std::string> arguments) {
+  std::atomic<bool> isSeen = false;
+  std::atomic<bool> isMapped = false;  // by then, what it is linked to is
+  ProgramLimits limits;
+  limits.meanwhile = [&](pid_t program) {
+    // 500 times none is the end.
+    for (int empty = 0; empty < 500;) {
+      const std::string maps = mapsOf(program);
+      empty = maps.empty() ? empty + 1 : 0;
+      if (maps.find("/libEGL") != std::string::npos) isMapped = true;
+      if (maps.find("/" + library) != std::string::npos) isSeen = true;
+      std::this_thread::sleep_for(1ms);
+    }
+  };
+  arguments.insert(arguments.begin(), "run");
+  const ProgramRun run = runProgram(arguments, limits);
+  EXPECT_EQ(run.status, 0) << run.error;
+  EXPECT_TRUE(isMapped);
+  return isSeen;
+}
+
+TEST_F(Run, LoadsLibavOnlyForWhatNeedsIt) {
+  const std::vector<std::string> raw{"--camera", "synthetic:still", "--size",
+                                     "160x120",  "--frames",        "3",
+                                     "--output", path("%d.png")};
+  EXPECT_FALSE(loads("libavcodec", raw));
+  std::vector<std::string> movie = raw;
+  movie.back() = path("out.mkv");
+  EXPECT_TRUE(loads("libavcodec", movie)) << "else this test cannot fail";
 }
 
 TEST_F(Run, FinishesItsFileWhenItIsTerminated) {

@@ -12,7 +12,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
+#include "hal/media/png_file.h"
 
 namespace pleinair::app {
 namespace {
@@ -95,7 +96,7 @@ hal::Result<std::optional<hal::Image>> LastPainting::read() const {
   if (fs::file_size(file_, failure) > kMaxBytes || failure) {
     return tl::unexpected(foreign(file_, "is larger than any that is kept"));
   }
-  hal::Result<hal::Image> painting = hal::readPictureRgb(file_);
+  hal::Result<hal::Image> painting = hal::readOwnPng(file_);
   if (!painting) return tl::unexpected(std::move(painting.error()));
   if (std::max(painting->size().width, painting->size().height) > kMaxSide) {
     return tl::unexpected(foreign(file_, "is larger than any that is kept"));

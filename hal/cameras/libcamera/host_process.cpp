@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include <fcntl.h>
@@ -16,6 +15,7 @@
 #include "hal/cameras/libcamera/host_channel.h"
 #include "hal/cameras/libcamera/host_server.h"
 #include "hal/cameras/libcamera/hosted_library.h"
+#include "hal/program_part.h"
 
 namespace pleinair::hal::libcamera {
 namespace {
@@ -27,13 +27,8 @@ constexpr int kFrames = 4;
 
 /// The path of the host's program; empty where it is not installed.
 std::string hostProgram() {
-  std::error_code error;
-  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", error);
-  for (const char* const folder : {".", "../libexec/pleinair"}) {
-    const std::filesystem::path path = own.parent_path() / folder / kName;
-    if (!error && ::access(path.c_str(), X_OK) == 0) return path.string();
-  }
-  return {};
+  const std::filesystem::path path = programPart(kName);
+  return ::access(path.c_str(), X_OK) == 0 ? path.string() : std::string();
 }
 
 Result<StartedHost> startHost(const std::string& program) {

@@ -23,7 +23,7 @@ struct Box {
 
 class Scanner {
  public:
-  Scanner(const libav::FileInput& file, std::uint32_t trackId) : file_(file), trackId_(trackId) {}
+  Scanner(const FileInput& file, std::uint32_t trackId) : file_(file), trackId_(trackId) {}
 
   Mp4Boxes scan() {
     Mp4Boxes result;
@@ -101,14 +101,14 @@ class Scanner {
     return samples;
   }
 
-  const libav::FileInput& file_;
+  const FileInput& file_;
   std::uint32_t trackId_;
   int boxesRead_ = 0;
 };
 
 }  // namespace
 
-Mp4Boxes scanMp4(const libav::FileInput& file, std::uint32_t trackId) {
+Mp4Boxes scanMp4(const FileInput& file, std::uint32_t trackId) {
   return Scanner(file, trackId).scan();
 }
 
@@ -135,7 +135,7 @@ std::optional<VariableInteger> variableInteger(std::span<const std::uint8_t> byt
   return value;
 }
 
-std::optional<Element> elementAt(const libav::FileInput& file, std::int64_t offset) {
+std::optional<Element> elementAt(const FileInput& file, std::int64_t offset) {
   std::array<std::uint8_t, 16> head{};
   const std::int64_t got = file.readAt(offset, head.data(), head.size());
   if (got <= 0) return std::nullopt;
@@ -153,7 +153,7 @@ std::optional<Element> elementAt(const libav::FileInput& file, std::int64_t offs
 
 }  // namespace
 
-bool segmentBreaksOff(const libav::FileInput& file) {
+bool segmentBreaksOff(const FileInput& file) {
   constexpr std::uint64_t kSegment = 0x18538067;
   const auto fileBytes = static_cast<std::uint64_t>(file.sizeBytes());
   std::uint64_t at = 0;

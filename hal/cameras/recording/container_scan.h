@@ -15,10 +15,10 @@ struct Mp4Boxes {
 
 /// Scans an MP4 file's box headers (ISO/IEC 14496-12 §4.2, §8.8). Gives the default result for
 /// files of more than a million boxes.
-Mp4Boxes scanMp4(const libav::FileInput& file, std::uint32_t trackId);
+Mp4Boxes scanMp4(const FileInput& file, std::uint32_t trackId);
 
 /// Whether a Matroska file is truncated: it ends before the end that its Segment declares (RFC 8794
 /// §4, RFC 9559 §5.1). False if the size is unknown, as in a live stream.
-bool segmentBreaksOff(const libav::FileInput& file);
+bool segmentBreaksOff(const FileInput& file);
 
 }  // namespace pleinair::hal::recording

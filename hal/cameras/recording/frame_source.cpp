@@ -8,7 +8,7 @@
 #include <string>
 #include <system_error>
 
-#include "hal/cameras/recording/picture_source.h"
+#include "hal/media/picture_paths.h"
 #include "hal/media/file_input.h"
 #include "hal/media/picture_header.h"
 
@@ -29,14 +29,14 @@ enum class RecordingKind { kPicture, kMovie };
 /// about a broken picture speaks of a picture.
 Result<RecordingKind> kindOf(const std::filesystem::path& path) {
   if (isPictureName(path)) return RecordingKind::kPicture;
-  const Result<libav::FileInput> file = libav::FileInput::open(path);
+  const Result<FileInput> file = FileInput::open(path);
   if (!file) return tl::unexpected(file.error());
   std::array<std::uint8_t, 16> head{};
   const std::int64_t got = file->readAt(0, head.data(), head.size());
   if (got < 0) {
     return tl::unexpected(errnoError(path.string(), "cannot read", static_cast<int>(-got)));
   }
-  const auto kind = libav::pictureKindOf(std::span(head).first(static_cast<std::size_t>(got)));
+  const auto kind = pictureKindOf(std::span(head).first(static_cast<std::size_t>(got)));
   // Motion-JPEG is a movie although it begins as a JPEG picture does.
   std::string ending = path.extension().string();
   std::ranges::transform(ending, ending.begin(), [](char c) {

@@ -1,6 +1,5 @@
 #include "hal/outputs/movie/movie_output.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cerrno>
 #include <chrono>
@@ -8,30 +7,17 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include <unistd.h>
 
+#include "hal/outputs/movie/movie_name.h"
 #include "hal/outputs/movie/movie_writer.h"
 #include "hal/outputs/movie/sound_encoder.h"
 #include "hal/outputs/movie/sound_track.h"
 
 namespace pleinair::hal {
 namespace {
-
-enum class MovieKind { kMp4, kMkv, kY4m };
-
-std::optional<MovieKind> kindOf(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  if (ending == ".mp4") return MovieKind::kMp4;
-  if (ending == ".mkv") return MovieKind::kMkv;
-  if (ending == ".y4m") return MovieKind::kY4m;
-  return std::nullopt;
-}
 
 class MovieOutput final : public MemoryOutput {
  public:
@@ -55,7 +41,7 @@ class MovieOutput final : public MemoryOutput {
   }
 
  private:
-  Result<std::unique_ptr<movie::MovieWriter>> openWriter(MovieKind kind);
+  Result<std::unique_ptr<movie::MovieWriter>> openWriter(movie::FileKind kind);
   Result<std::unique_ptr<movie::SoundSource>> openSound(std::optional<movie::Container> container);
 
   std::filesystem::path path_;
@@ -87,7 +73,7 @@ Result<movie::MovieFormat> formatFor(const OutputRequest& request, const std::st
 
 Result<OutputFormat> MovieOutput::start(const OutputRequest& request) {
   assert(!file_);
-  const std::optional<MovieKind> kind = kindOf(path_);
+  const std::optional<movie::FileKind> kind = movie::fileKindOf(path_);
   if (!kind) {
     return tl::unexpected(Error{.kind = ErrorKind::kInvalidArgument,
                                 .subject = path_.string(),
@@ -99,7 +85,7 @@ Result<OutputFormat> MovieOutput::start(const OutputRequest& request) {
   format_ = *format;
   format_.codec = options_.codec;
   format_.crf = options_.crf;
-  if (options_.codec == VideoCodec::kFfv1 && *kind == MovieKind::kMp4) {
+  if (options_.codec == VideoCodec::kFfv1 && *kind == movie::FileKind::kMp4) {
     return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
                                 .subject = path_.string(),
                                 .problem = "cannot hold FFV1",
@@ -114,13 +100,14 @@ Result<OutputFormat> MovieOutput::start(const OutputRequest& request) {
   return OutputFormat{.frame = format_.frame, .refresh = std::nullopt};
 }
 
-Result<std::unique_ptr<movie::MovieWriter>> MovieOutput::openWriter(MovieKind kind) {
-  if (kind == MovieKind::kY4m) {
+Result<std::unique_ptr<movie::MovieWriter>> MovieOutput::openWriter(movie::FileKind kind) {
+  if (kind == movie::FileKind::kY4m) {
     if (auto sound = openSound(std::nullopt); !sound) return tl::unexpected(sound.error());
     return movie::openY4mWriter(
         format_, [this](std::span<const std::uint8_t> bytes) { return file_->write(bytes); });
   }
-  const auto container = kind == MovieKind::kMp4 ? movie::Container::kMp4 : movie::Container::kMkv;
+  const auto container =
+      kind == movie::FileKind::kMp4 ? movie::Container::kMp4 : movie::Container::kMkv;
   auto sound = openSound(container);
   if (!sound) return tl::unexpected(sound.error());
   return movie::openCodedWriter(container, format_, path_.string(), *file_, *std::move(sound));
@@ -190,34 +177,9 @@ std::unique_ptr<MemoryOutput> openMovieStream() {
   return std::make_unique<MovieStream>();
 }
 
-std::unique_ptr<MemoryOutput> openMovieOutput(std::filesystem::path path, FileSystem& files) {
-  return openMovieOutput(std::move(path), {}, files);
-}
-
 std::unique_ptr<MemoryOutput> openMovieOutput(std::filesystem::path path, MovieOptions options,
                                               FileSystem& files) {
   return std::make_unique<MovieOutput>(std::move(path), std::move(options), files);
-}
-
-OutputKind movieKind() {
-  return {.name = "movie",
-          .help = "a movie (.mp4, .mkv), or uncompressed (.y4m)",
-          .forms = {"movie.mp4", "movie.mkv", "movie.y4m"},
-          .traits = {.writesFiles = true},
-          .options = {},
-          .recognizes =
-              [](const std::string& target) {
-                std::error_code ignored;
-                return isMovieName(target) && !std::filesystem::is_directory(target, ignored);
-              },
-          .list = nullptr,
-          .problemOf = nullptr,
-          .make = [](const std::string& target, const OutputOptions&)
-              -> Result<std::unique_ptr<Output>> { return openMovieOutput(target); }};
-}
-
-bool isMovieName(const std::filesystem::path& path) {
-  return kindOf(path).has_value();
 }
 
 }  // namespace pleinair::hal

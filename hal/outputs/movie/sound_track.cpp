@@ -17,7 +17,7 @@ Result<std::unique_ptr<SoundTrack>> SoundTrack::open(const std::filesystem::path
   libav::redirectLog();
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(recording, ignored)) return nullptr;
-  Result<libav::FileInput> file = libav::FileInput::open(recording);
+  Result<FileInput> file = FileInput::open(recording);
   if (!file) return tl::unexpected(file.error());
   std::unique_ptr<SoundTrack> track(new SoundTrack(libav::DemuxerIo(*std::move(file))));
   if (!track->openStreams()) return nullptr;

@@ -7,6 +7,7 @@
 
 #include "hal/clock.h"
 #include "hal/error.h"
+#include "hal/media/demuxer_io.h"
 #include "hal/media/file_input.h"
 #include "hal/media/handles.h"
 #include "hal/outputs/movie/sound_source.h"
@@ -17,7 +18,7 @@ namespace pleinair::hal::movie {
 /// the first video frame at or after `from`. One thread.
 class SoundTrack final : public SoundSource {
  public:
-  /// Nothing where the recording has no sound, or is no movie. Errors: as libav::FileInput::open.
+  /// Nothing where the recording has no sound, or is no movie. Errors: as FileInput::open.
   static Result<std::unique_ptr<SoundTrack>> open(const std::filesystem::path& recording,
                                                   Duration from);
 

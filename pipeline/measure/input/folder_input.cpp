@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "hal/cameras/recording/picture_source.h"
+#include "hal/media/picture_paths.h"
 #include "hal/media/picture_file.h"
 #include "pipeline/measure/input/kitti_flow.h"
 #include "pipeline/measure/input/measured_input.h"
@@ -27,7 +27,7 @@ hal::Error wrong(const fs::path& subject, std::string problem, std::string remed
 }
 
 hal::Result<FolderContents> contentsOf(const fs::path& folder) {
-  auto pictures = hal::recording::picturesIn(folder);
+  auto pictures = hal::picturesIn(folder);
   if (!pictures) return tl::unexpected(pictures.error());
   FolderContents contents;
   for (fs::path& path : *pictures) {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "pipeline/measure/measurement_report.h"
 #include "pipeline/measure/report/report_plots.h"
 

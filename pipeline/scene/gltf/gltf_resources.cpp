@@ -79,7 +79,7 @@ bool hasScheme(std::string_view uri) {
 
 std::vector<std::uint8_t> readWholeFile(const std::filesystem::path& path, std::int64_t maxBytes,
                                         const std::string& where) {
-  const hal::Result<hal::libav::FileInput> file = hal::libav::FileInput::open(path);
+  const hal::Result<hal::FileInput> file = hal::FileInput::open(path);
   if (!file) {
     const hal::Error& error = file.error();
     // FileInput's remedy for an empty or missing file is about movies; replace it.
@@ -218,12 +218,12 @@ std::shared_ptr<const hal::Image> Resources::image(std::size_t index, const std:
 
 std::shared_ptr<const hal::Image> Resources::decode(std::span<const std::uint8_t> bytes,
                                                     const std::string& where) {
-  using hal::libav::PictureKind;
-  const auto kind = hal::libav::pictureKindOf(bytes);
+  using hal::PictureKind;
+  const auto kind = hal::pictureKindOf(bytes);
   if (kind != PictureKind::kPng && kind != PictureKind::kJpeg && kind != PictureKind::kWebp) {
     refuseUnsupported(where, "is a picture of a kind that is not read", "a PNG or JPEG");
   }
-  const auto size = hal::libav::peekPictureSize(*kind, bytes);
+  const auto size = hal::peekPictureSize(*kind, bytes);
   if (!size) refuse(where, "is a broken picture");
   if (std::max(size->width, size->height) > kMaxTextureSide || size->pixels() > pixelsLeft_) {
     refuse(where, fmt::format("has {}x{} px", size->width, size->height),

@@ -36,7 +36,7 @@ hal::Error named(hal::Error error, const std::filesystem::path& path) {
 }
 
 hal::Result<std::vector<std::uint8_t>> bytesOf(const std::filesystem::path& path) {
-  const hal::Result<hal::libav::FileInput> file = hal::libav::FileInput::open(path);
+  const hal::Result<hal::FileInput> file = hal::FileInput::open(path);
   if (!file) return tl::unexpected(named(file.error(), path));
   if (file->sizeBytes() > kMaxFileBytes) {
     return tl::unexpected(refused(path, fmt::format("takes {} MiB", file->sizeBytes() >> 20)));
@@ -85,13 +85,13 @@ std::uint8_t meanOf(const BrushMarks& marks, int fromX, int toX, int fromY, int 
 }  // namespace
 
 hal::Result<BrushMarks> readBrushFile(const std::filesystem::path& path) {
-  using hal::libav::PictureKind;
+  using hal::PictureKind;
   const hal::Result<std::vector<std::uint8_t>> bytes = bytesOf(path);
   if (!bytes) return tl::unexpected(bytes.error());
-  if (hal::libav::pictureKindOf(*bytes) != PictureKind::kPng) {
+  if (hal::pictureKindOf(*bytes) != PictureKind::kPng) {
     return tl::unexpected(refused(path, "is no PNG"));
   }
-  const std::optional<hal::FrameSize> size = hal::libav::peekPictureSize(PictureKind::kPng, *bytes);
+  const std::optional<hal::FrameSize> size = hal::peekPictureSize(PictureKind::kPng, *bytes);
   if (!size) return tl::unexpected(refused(path, "is a broken PNG"));
   const std::optional<int> variants = variantsOf(*size);
   if (!variants) {

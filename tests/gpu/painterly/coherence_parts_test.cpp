@@ -9,7 +9,7 @@
 
 #include <gmock/gmock.h>
 
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "tests/support/gl_test.h"
 #include "tests/support/temporary_folder.h"
 

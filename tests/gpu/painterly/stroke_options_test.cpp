@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "tests/gpu/painterly/painterly_fixture.h"
 #include "tests/support/temporary_folder.h"
 

@@ -22,7 +22,7 @@
 #include <glm/geometric.hpp>
 
 #include "hal/error.h"
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/scene/description/model_source.h"
 #include "tests/reports/anchors/anchor_stage.h"

@@ -20,6 +20,7 @@
 #include "firmware_app/thesis/field_comparison.h"
 #include "hal/error.h"
 #include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/marks/marks_shaders.h"

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "tests/support/deep_png.h"
 #include "tests/support/temporary_folder.h"
 

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "pipeline/measure/input/picture.h"
 #include "pipeline/measure/negative_controls.h"
 #include "pipeline/styles/registry.h"

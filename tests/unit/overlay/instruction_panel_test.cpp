@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "pipeline/procedure/procedure.h"
 #include "tests/support/temporary_folder.h"
 

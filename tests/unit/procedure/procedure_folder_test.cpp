@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "tests/support/av_movie.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/procedure/procedure_texts.h"

@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "pipeline/scene/gltf/gltf_accessors.h"
 #include "pipeline/scene/gltf/gltf_fault.h"
 #include "pipeline/scene/gltf/gltf_file.h"

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "hal/image.h"
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "pipeline/scene/gltf/gltf_file.h"
 #include "pipeline/scene/models/model_pose.h"
 #include "tests/unit/scene/gltf_builder.h"

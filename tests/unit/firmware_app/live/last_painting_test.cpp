@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "tests/support/environment.h"
 #include "tests/support/temporary_folder.h"
 

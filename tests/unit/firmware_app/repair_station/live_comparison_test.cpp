@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "firmware_app/repair_station/live_procedure.h"
-#include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "pipeline/record/record_check.h"
 #include "pipeline/scene/models/model.h"
 #include "tests/support/temporary_folder.h"

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/media/picture_file.h"
+#include "hal/media/png_file.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"
 

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "hal/cameras/recording/picture_source.h"
-#include "hal/media/picture_file.h"
+#include "hal/media/picture_paths.h"
+#include "hal/media/png_file.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_jpegs.h"
@@ -28,7 +28,7 @@ ErrorKind kindOfPlaying(const fs::path& path) {
 
 TEST(NaturalOrder, ComparesNumbersAsNumbers) {
   std::vector<std::string> names = {"a10", "a2", "b1", "a02", "a", "a2b", "a1"};
-  std::ranges::sort(names, recording::naturallyLess);
+  std::ranges::sort(names, naturallyLess);
   EXPECT_THAT(names, testing::ElementsAre("a", "a1", "a02", "a2", "a2b", "a10", "b1"));
 }
 

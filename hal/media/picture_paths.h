@@ -7,7 +7,7 @@
 #include "hal/error.h"
 #include "hal/numbered_path.h"
 
-namespace pleinair::hal::recording {
+namespace pleinair::hal {
 
 /// Whether the name has a picture file's extension (.png, .JPG …).
 bool isPictureName(const std::filesystem::path& path);
@@ -28,4 +28,4 @@ Result<std::vector<std::filesystem::path>> picturesIn(const std::filesystem::pat
 Result<std::vector<std::filesystem::path>> picturesOf(const NumberedPath& pattern,
                                                       std::string_view patternText);
 
-}  // namespace pleinair::hal::recording
+}  // namespace pleinair::hal

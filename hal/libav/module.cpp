@@ -1,0 +1,21 @@
+#include "hal/libav/entry_points.h"
+
+// The module that libav_loader.cpp loads.
+extern "C" __attribute__((visibility("default"))) const pleinair::hal::libav::EntryPoints*
+pleinair_libav_entry_points();
+
+const pleinair::hal::libav::EntryPoints* pleinair_libav_entry_points() {
+  using namespace pleinair::hal;
+  static constexpr libav::EntryPoints kEntryPoints{.readPicture = readPicture,
+                                                   .readPictureRgb = readPictureRgb,
+                                                   .readPictureRgba = readPictureRgba,
+                                                   .decodeRgba = decodeRgba,
+                                                   .readRgb16 = readRgb16,
+                                                   .decodeMotionJpeg = libav::decodeMotionJpeg,
+                                                   .openRecording = openRecording,
+                                                   .forMovieFrames = forMovieFrames,
+                                                   .openMovieOutput = openMovieOutput,
+                                                   .openMovieStream = openMovieStream,
+                                                   .openCapture = captures::CaptureWriter::open};
+  return &kEntryPoints;
+}
