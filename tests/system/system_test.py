@@ -33,7 +33,7 @@ def prepare(folder, programs):
         stripped = os.path.join(folder, "programs", os.path.basename(program))
         subprocess.run(["strip", "-o", stripped, program], check=True)
     try:
-        image = images.ready_image(programs[0], os.path.join(folder, "build.log"))
+        image = images.ready_image(programs, os.path.join(folder, "build.log"))
         accelerator = machine.usable_accelerator(image, os.path.join(folder, "trial"))
         state = {"image": image, "accelerator": accelerator}
         print(f"{image}, run with {accelerator}")

@@ -57,10 +57,10 @@ def packages_of(program):
     return sorted(packages)
 
 
-def ready_image(program, log):
-    """The folder of an image for this program; builds the image if there is none."""
+def ready_image(programs, log):
+    """The folder of an image for these programs; builds the image if there is none."""
     check_machine()
-    packages = packages_of(program)
+    packages = sorted({package for program in programs for package in packages_of(program)})
     key = hashlib.sha256(" ".join(packages).encode())
     for name in BUILT_FROM:
         with open(os.path.join(HERE, name), "rb") as file:
