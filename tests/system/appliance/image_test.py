@@ -7,6 +7,8 @@
 
 Exit status: 0; 1; 77, a skip: there is no image (./dev package; ./dev image), or a program is missing.
 """
+import contextlib
+import fcntl
 import hashlib
 import os
 import random
@@ -33,19 +35,19 @@ WORDS = "pleinair.software_gl modules_load=vivid console=ttyS0 systemd.journald.
 VERSION_WORDS = "pleinair.trial_minutes={}"
 # A real-time thread that the emulation slows down has used up its time, and is killed for it (LimitRTTIME=).
 EMULATED = "[Service]\nLimitRTPRIO=0\n"
-HANGING = "[Service]\nType=simple\nWatchdogSec=0\nExecStart=\nExecStart=/usr/bin/sleep infinity\n"
+HANGING_SERVICE = "[Service]\nType=simple\nWatchdogSec=0\nExecStart=\nExecStart=/usr/bin/sleep infinity\n"
 # Depends on nothing: what the machine itself needs until then is not the program's. The journal's own first lines do not reach
 # the serial port.
-CONTROL = """[Unit]
+CONTROL_UNIT = """[Unit]
 DefaultDependencies=no
 [Service]
 Type=oneshot
 ExecStart=/bin/sh -c 'read up idle </proc/uptime; echo "CONTROL $$up" >/dev/ttyS0'
 """
-CRASHING = "[Service]\nExecStart=\nExecStart=/usr/bin/false\n"
+CRASHING_SERVICE = "[Service]\nExecStart=\nExecStart=/usr/bin/false\n"
 CONFIRMED = r"slot {} is confirmed"
-MOST_TO_PICTURE = 1.0  # seconds after the control unit, times the patience
-MOST_TO_PAINTING = 1.3  # times what the service takes from its own start on
+FIRST_PICTURE_LIMIT = 1.0  # seconds after the control unit, times the patience
+PAINTING_LIMIT = 1.3  # times what the service takes from its own start on
 CONFIRM_MINUTES = 45  # to the first painting and a minute more: 6 on an idle machine
 SITE = b'[painting]\nlook = "line_and_wash"\n'
 
@@ -67,6 +69,18 @@ class Images:
 
     def _make(self, version, minutes, kiosk_settings=EMULATED, keys=None, control=None):
         """`kiosk_settings`: a drop-in of the service that paints. `control`: a unit of the machine's start."""
+        with self._locked(version):
+            return self._made_anew_or_kept(version, minutes, kiosk_settings, keys, control)
+
+    @contextlib.contextmanager
+    def _locked(self, name):
+        """Against another scenario of the same folder."""
+        os.makedirs(self._made, exist_ok=True)
+        with open(os.path.join(self._made, name + ".lock"), "w") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            yield
+
+    def _made_anew_or_kept(self, version, minutes, kiosk_settings, keys, control):
         output = os.path.join(self._made, version)
         done = os.path.join(output, "done")
         stamp = f"{os.path.getmtime(self._tar)} {VERSION_WORDS.format(minutes)} {kiosk_settings} {control} {soak.WATCH}"
@@ -107,11 +121,11 @@ class Images:
 
     def timed_disk(self):
         """Version 0.6, which says when a unit without dependencies has run."""
-        return self._disk("0.6", control=CONTROL)
+        return self._disk("0.6", control=CONTROL_UNIT)
 
     def crashing_disk(self):
         """Version 0.5, whose service ends at once whenever it is started."""
-        return self._disk("0.5", CRASHING)
+        return self._disk("0.5", CRASHING_SERVICE)
 
     def _disk(self, version, kiosk_settings=EMULATED, control=None):
         certificate = os.path.join(self._made, "certificate")  # without a key there is no bundle, which takes longest
@@ -128,7 +142,7 @@ class Images:
 
     def hanging_bundle(self):
         """Version 3.0, which starts and does not paint."""
-        return os.path.join(self._make("3.0", 3, HANGING), f"pleinair-{ARCH}-3.0.raucb")
+        return os.path.join(self._make("3.0", 3, HANGING_SERVICE), f"pleinair-{ARCH}-3.0.raucb")
 
     def small_bundle(self, folder, name, version, keys=None):
         """One of which only the signature and the version matter."""
@@ -260,7 +274,7 @@ def measured_patience(disk, kernel, folder):
 
 
 def boot(images, folder):
-    """The times of one start, beside a unit that depends on nothing; no console is seen."""
+    """The times of one start, beside a unit that depends on nothing; no console is seen, and nothing listens."""
     made = images.timed_disk()
     disk = kiosk.overlay(set_up(made, folder), os.path.join(folder, "disk.qcow2"))
     slower = measured_patience(disk, kernel_of(made), folder)
@@ -275,11 +289,13 @@ def boot(images, folder):
         painting = picture + time.monotonic() - ready_at
         print(f"seconds after the kernel: control unit {control:.1f}, service begun {begun:.1f}, its first picture "
               f"{picture:.1f}, painting {painting:.1f}")
+        machine.wait_for(" SOCKETS ", 5)
+        soak.judge_sockets(machine.journal())
         if not control < begun:
             raise Failed("the control unit ran after the service: it says nothing")
-        if picture - control > MOST_TO_PICTURE * slower:
+        if picture - control > FIRST_PICTURE_LIMIT * slower:
             raise Failed(f"the first picture came {picture - control:.1f} s after the control unit, {slower:.1f} times slowed down")
-        if painting - control > MOST_TO_PAINTING * (painting - begun):
+        if painting - control > PAINTING_LIMIT * (painting - begun):
             raise Failed(f"the service takes {painting - begun:.1f} s to paint; it was {painting - control:.1f} s after the control unit")
 
 

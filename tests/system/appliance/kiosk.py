@@ -182,13 +182,18 @@ class Kiosk:
             time.sleep(1)
 
     def paints(self, minutes):
-        """Waits until two paintings differ, as those of a camera do. Text is a failure."""
+        """Waits until two paintings differ, as those of a camera do. Text is a failure. Screens that differ much from the one
+        before are kept as film-SECOND.ppm."""
         end = time.monotonic() + 60 * minutes
         began = time.monotonic()
-        waiting = last = None
+        waiting = last = kept = None
         firmware = check.Firmware()
         while time.monotonic() < end and self._machine.is_running():
             screen = self.screen("now")
+            if kept is None or screen.changed(kept) > check.OTHER_PICTURE or screen.kind() != kept.kind():
+                kept = screen
+                shutil.copy(os.path.join(self.folder, "now.ppm"),
+                            os.path.join(self.folder, f"film-{time.monotonic() - began:05.1f}.ppm"))
             after_firmware = firmware.is_over(time.monotonic() - began, screen)
             if after_firmware and screen.kind() == "text":
                 shutil.copy(os.path.join(self.folder, "now.ppm"), os.path.join(self.folder, "text.ppm"))

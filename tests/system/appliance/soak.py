@@ -15,14 +15,32 @@ CHROOT_FRAMES = 200_000
 MACHINE_MINUTES = 30
 LEAST_SHARE = 0.9  # of the time, for which there are samples
 
-# A unit of the machine's own: the memory and the descriptors of the service that paints, and what the kernel says of a program
-# that has crashed.
+# A unit of the machine's own. It says which sockets others could reach (first with one of its own, so that none means none), and
+# then, over and over, the memory and the descriptors of the service that paints, and what the kernel says of a program that
+# has crashed.
 WATCH = r"""[Service]
-ExecStart=/bin/sh -c 'while sleep 10; do dmesg -c | grep -A 1 segfault; \
-  pid=$$(systemctl show --value -p MainPID pleinair-kiosk); [ $$pid = 0 ] && continue; \
-  set -- $$(grep RssAnon /proc/$$pid/status); echo "SOAK $$pid $$2 $$(ls /proc/$$pid/fd | wc -l)"; done'
+ExecStart=/bin/sh -c 'reachable() { echo "$$1 $$(cat /proc/net/tcp /proc/net/tcp6 | grep -c " 0A ") \
+    $$(cat /proc/net/udp /proc/net/udp6 /proc/net/raw /proc/net/raw6 /proc/net/packet | grep -vc -e local_address -e RefCnt)"; }; \
+  sleep 45; systemd-socket-activate -l 4711 /bin/true & own=$$!; sleep 10; reachable CONTROL-SOCKETS; kill $$own; wait; \
+  reachable SOCKETS; \
+  while sleep 30; do dmesg -c | grep -A 1 segfault; \
+    pid=$$(systemctl show --value -p MainPID pleinair-kiosk); [ $$pid = 0 ] && continue; \
+    set -- $$(grep RssAnon /proc/$$pid/status); echo "SOAK $$pid $$2 $$(ls /proc/$$pid/fd | wc -l)"; done'
 """
 SAID = re.compile(r"\[ *([0-9.]+)\] \S+: SOAK (\d+) (\d+) (\d+)")
+
+
+REACHABLE = re.compile(r"(CONTROL-)?SOCKETS (\d+) +(\d+)")
+
+
+def judge_sockets(journal):
+    """Nobody reaches the machine through a network, and the look at its sockets finds one that is there."""
+    found = {bool(control): (int(listening), int(others)) for control, listening, others in REACHABLE.findall(journal)}
+    if found.get(True) != (1, 0):
+        raise Failed(f"the look at sockets does not find its own: {found}")
+    if found.get(False) != (0, 0):
+        raise Failed(f"something listens: {found}")
+    print("no socket that a network reaches", flush=True)
 
 
 def _judge(samples, logged, seconds, least_seconds):
