@@ -12,6 +12,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <xf86drm.h>
 #include <xf86drmMode.h>
@@ -362,6 +363,16 @@ class KernelCard final : public Card {
   std::mutex mutex_;  ///< of takeFlips()
 };
 
+/// Whether a node has come, or has changed hands, in the last seconds. It belongs to root alone
+/// until udev has looked at it.
+bool isNew(const std::string& node) {
+  constexpr std::time_t kSeconds = 10;
+  struct stat status {};
+  if (::stat(node.c_str(), &status) != 0) return false;
+  const std::time_t age = std::time(nullptr) - status.st_ctim.tv_sec;
+  return age >= 0 && age <= kSeconds;
+}
+
 class KernelCards final : public Cards {
  public:
   std::vector<std::string> nodes() override {
@@ -380,8 +391,11 @@ class KernelCards final : public Cards {
   Result<std::unique_ptr<Card>> open(const std::string& node) override {
     FileDescriptor file(::open(node.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK));
     if (!file) {
-      return tl::unexpected(errnoError(node, "cannot open", errno,
-                                       errno == EACCES ? "add yourself to the group video" : ""));
+      const bool isDenied = errno == EACCES;
+      Error error =
+          errnoError(node, "cannot open", errno, isDenied ? "add yourself to the group video" : "");
+      if (isDenied && isNew(node)) error.kind = ErrorKind::kBusy;
+      return tl::unexpected(std::move(error));
     }
     // A card without displays (a GPU that only renders) has no such capability.
     if (drmSetClientCap(file.get(), DRM_CLIENT_CAP_UNIVERSAL_PLANES, 1) != 0 ||

@@ -2,8 +2,9 @@
 """Scenarios of the machine image and of its updates, in QEMU but for one. Each takes from two minutes to an hour and a half.
 
     image_test.py FOLDER_OF_IMAGES RESULTS prepare       makes what the others need, from `./dev image`'s root
-    image_test.py FOLDER_OF_IMAGES RESULTS SCENARIO      boot, crashes, install, updates, copies, soak,
-                                                 soak_in_chroot, or power_cut:SEED
+    image_test.py FOLDER_OF_IMAGES RESULTS SCENARIO      boot, crashes, install, updates, copies, data_corrupted, data_read_only,
+                                                 data_full, clock, late, wrong_sites, hung, soak, soak_in_chroot, or
+                                                 power_cut:SEED
 
 Exit status: 0; 1; 77, a skip: there is no image (./dev package; ./dev image), or a program is missing.
 """
@@ -23,6 +24,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(1, os.path.dirname(sys.path[0]))
 
+import bad_days  # noqa: E402
 import kiosk  # noqa: E402
 import patience  # noqa: E402
 import soak  # noqa: E402
@@ -83,7 +85,7 @@ class Images:
     def _made_anew_or_kept(self, version, minutes, kiosk_settings, keys, control):
         output = os.path.join(self._made, version)
         done = os.path.join(output, "done")
-        stamp = f"{os.path.getmtime(self._tar)} {VERSION_WORDS.format(minutes)} {kiosk_settings} {control} {soak.WATCH}"
+        stamp = f"{os.path.getmtime(self._tar)} {VERSION_WORDS.format(minutes)} {kiosk_settings} {control} {kiosk.COMMANDS}"
         if os.path.exists(done) and open(done).read() == stamp:
             return output
         shutil.rmtree(output, ignore_errors=True)
@@ -96,7 +98,7 @@ class Images:
         with open(os.path.join(place, "scenario.conf"), "w") as file:
             file.write(kiosk_settings)
         units = os.path.dirname(place)
-        for name, content, target in (("control", control, "sysinit"), ("watch", soak.WATCH, "pleinair-display")):
+        for name, content, target in (("control", control, "sysinit"), ("commands", kiosk.COMMANDS, "pleinair-display")):
             if not content:
                 continue
             with open(os.path.join(units, name + ".service"), "w") as file:
@@ -154,6 +156,31 @@ class Images:
         kiosk.run(os.path.join(kiosk.SOURCE, "appliance", "update", "make-bundle"), version, ARCH, f"{keys}/update.key",
                   f"{keys}/update.crt", content, content, path)
         return path
+
+    SAVED = "confirmed"
+
+    def confirmed_disk(self):
+        """A qcow2 file that holds a machine which has painted for a minute: Kiosk(…, ("-loadvm", SAVED)) goes on from there, and
+        spares each power cut of such a machine the minutes until then."""
+        raw = self.disk()
+        path = os.path.join(os.path.dirname(raw), self.SAVED + ".qcow2")
+        with self._locked(self.SAVED):
+            # A saved machine goes on in the same one only.
+            stamp = " ".join([str(os.path.getmtime(raw)), *kiosk.check.EMULATORS[ARCH][0], subprocess.run(
+                ["qemu-system-x86_64", "--version"], check=True, capture_output=True, text=True).stdout])
+            stamp_file = path + ".stamp"
+            if os.path.exists(path) and os.path.exists(stamp_file) and open(stamp_file).read() == stamp:
+                return path
+            folder = os.path.join(os.path.dirname(raw), self.SAVED)
+            os.makedirs(folder, exist_ok=True)
+            disk = kiosk.copy_as_qcow2(raw, os.path.join(folder, "disk.qcow2"))
+            with Kiosk(disk, folder) as machine:
+                machine.wait_for(CONFIRMED.format("a"), CONFIRM_MINUTES)
+                machine.save(self.SAVED)
+            os.rename(disk, path)
+            with open(stamp_file, "w") as file:
+                file.write(stamp)
+            return path
 
 
 def updates(images, folder):
@@ -289,8 +316,7 @@ def boot(images, folder):
         painting = picture + time.monotonic() - ready_at
         print(f"seconds after the kernel: control unit {control:.1f}, service begun {begun:.1f}, its first picture "
               f"{picture:.1f}, painting {painting:.1f}")
-        machine.wait_for(" SOCKETS ", 5)
-        soak.judge_sockets(machine.journal())
+        soak.judge_sockets(machine)
         if not control < begun:
             raise Failed("the control unit ran after the service: it says nothing")
         if picture - control > FIRST_PICTURE_LIMIT * slower:
@@ -388,32 +414,6 @@ def set_up(disk, folder):
     return raw
 
 
-SAVED = "confirmed"
-
-
-def confirmed_disk(images):
-    """A qcow2 file that holds a machine which has painted for a minute: Kiosk(…, ("-loadvm", SAVED)) goes on from there, and
-    spares each power cut of such a machine the minutes until then."""
-    raw = images.disk()
-    path = os.path.join(os.path.dirname(raw), SAVED + ".qcow2")
-    # A saved machine goes on in the same one only.
-    stamp = " ".join([str(os.path.getmtime(raw)), *kiosk.check.EMULATORS[ARCH][0],
-                      subprocess.run(["qemu-system-x86_64", "--version"], check=True, capture_output=True, text=True).stdout])
-    stamp_file = path + ".stamp"
-    if os.path.exists(path) and os.path.exists(stamp_file) and open(stamp_file).read() == stamp:
-        return path
-    folder = os.path.join(os.path.dirname(raw), SAVED)
-    os.makedirs(folder, exist_ok=True)
-    disk = kiosk.copy_as_qcow2(raw, os.path.join(folder, "disk.qcow2"))
-    with Kiosk(disk, folder) as machine:
-        machine.wait_for(CONFIRMED.format("a"), CONFIRM_MINUTES)
-        machine.save(SAVED)
-    os.rename(disk, path)
-    with open(stamp_file, "w") as file:
-        file.write(stamp)
-    return path
-
-
 # What the machine is at when its power is cut, and for how many seconds the cut may be waited for: a whole first start, a
 # painting machine's own writing, the reading of a medium, and an installation with the start of the new version.
 PHASES = {"first start": 150, "painting": 60, "provisioning": 60, "update": 240}
@@ -426,8 +426,8 @@ def power_cut(images, folder, seed):
     phase = list(PHASES)[seed % len(PHASES)]
     disk = os.path.join(folder, "disk.qcow2")
     if phase in ("painting", "update"):
-        kiosk.run("cp", "--sparse=always", confirmed_disk(images), disk)
-        devices = ("-loadvm", SAVED)
+        kiosk.run("cp", "--sparse=always", images.confirmed_disk(), disk)
+        devices = ("-loadvm", images.SAVED)
     else:
         kiosk.overlay(images.disk() if phase == "first start" else set_up(images.disk(), folder), disk)
         devices = ()
@@ -467,7 +467,7 @@ def soak_painting(images, folder):
         soak.soak_machine(machine, CONFIRMED.format("a"), CONFIRM_MINUTES)
 
 
-SCENARIOS = {"boot": boot, "crashes": crashes, "updates": updates, "copies": copies, "install": install, "soak": soak_painting,
+SCENARIOS = {**bad_days.SCENARIOS, "boot": boot, "crashes": crashes, "updates": updates, "copies": copies, "install": install, "soak": soak_painting,
              "soak_in_chroot": lambda images, folder: soak.soak_chroot(images.tar(), folder)}
 
 
@@ -481,7 +481,7 @@ def main():
         images.disk()
         images.bundle()
         images.hanging_bundle()
-        confirmed_disk(images)
+        images.confirmed_disk()
         return 0
     if name == "soak_in_chroot" and os.geteuid():
         print("skipped: it takes root to enter the system")

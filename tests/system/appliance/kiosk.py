@@ -1,10 +1,12 @@
 """A machine that runs an image of the appliance in QEMU, by UEFI and GRUB: what its screen shows, what its journal says, sticks
 that come and go, and its power, which is cut by killing the emulator."""
+import base64
 import contextlib
 import importlib.util
 import os
 import re
 import shutil
+import socket
 import subprocess
 import time
 
@@ -28,6 +30,14 @@ class Failed(AssertionError):
 
 def run(*command):
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+
+
+# A unit of the machine's own: it runs what comes on a second serial port, as root, and answers each line by what that said and
+# its exit status.
+COMMANDS = r"""[Service]
+ExecStart=/bin/sh -c 'stty -F /dev/ttyS1 raw -echo; exec 3<>/dev/ttyS1; while read -r line <&3; do \
+  sh -c "$$line" >/run/answer 2>&1 </dev/null; status=$$?; echo "$$(base64 -w 0 /run/answer) $$status" >&3; done'
+"""
 
 
 def overlay(disk, path):
@@ -95,12 +105,15 @@ def has_caption(screen):
 class Kiosk:
     """Switched on from `with` to its end. Restarts of the machine itself are its own matter."""
 
-    def __init__(self, disk, folder, devices=()):
-        """`disk`: a qcow2 file. `devices`: further arguments of QEMU, such as ("-loadvm", NAME) for a machine that was saved on it."""
+    def __init__(self, disk, folder, devices=(), display=True):
+        """`disk`: a qcow2 file. `display`: whether one is there at power on. `devices`: further arguments of QEMU, such as ("-loadvm", NAME) for a machine that was saved on it."""
         self.folder = folder
         self._disk = disk
         self._devices = devices
+        self._has_display = display
+        self._display = {}  # that of a screendump: the only one
         self._journal = os.path.join(folder, "journal.log")
+        self._commands = os.path.join(folder, "commands")
         self._machine = None
         self._read = 0
 
@@ -109,8 +122,8 @@ class Kiosk:
         with contextlib.suppress(FileNotFoundError):
             os.remove(self._journal)
         self._read = 0
-        self._machine = check.Machine(self._disk, self.folder, restarts=True, arguments=(
-            "-serial", f"file:{self._journal}", "-device", "qemu-xhci,id=usb", *self._devices))
+        self._machine = check.Machine(self._disk, self.folder, restarts=True, display=self._has_display, arguments=(
+            "-serial", f"file:{self._journal}", "-serial", f"unix:{self._commands},server,nowait", "-device", "qemu-xhci,id=usb", *self._devices))
         self._machine.__enter__()
         return self
 
@@ -126,6 +139,21 @@ class Kiosk:
     def is_running(self):
         return self._machine.is_running()
 
+    def run(self, command, minutes=5):
+        """Runs a line of shell in the machine, as root. Returns what it said; anything but success is a failure."""
+        with socket.socket(socket.AF_UNIX) as port:
+            port.settimeout(60 * minutes)
+            port.connect(self._commands)
+            port.sendall(command.encode() + b"\n")
+            answer = b""
+            while not answer.endswith(b"\n"):
+                answer += port.recv(65536)
+        said, status = answer.decode().rsplit(" ", 1)
+        said = base64.b64decode(said).decode(errors="replace")
+        if int(status):
+            raise Failed(f"{command}: exit status {int(status)}: {said}")
+        return said
+
     def cut_power(self):
         self._machine.__exit__()
 
@@ -133,6 +161,10 @@ class Kiosk:
         self._machine.command("blockdev-add", **{"node-name": name, "driver": "raw",
                                                  "file": {"driver": "file", "filename": file}})
         self._machine.command("device_add", driver="usb-storage", bus="usb.0", drive=name, id=name + "-device")
+
+    def plug_in_display(self, port):
+        self._machine.command("device_add", driver="virtio-gpu-pci", bus=port, id="late-display")
+        self._display = {"device": "late-display"}
 
     def pull(self, name="stick"):
         self._machine.command("device_del", id=name + "-device")
@@ -169,7 +201,7 @@ class Kiosk:
     def screen(self, name):
         """What the screen shows now; kept as NAME.ppm."""
         path = os.path.join(self.folder, name + ".ppm")
-        self._machine.command("screendump", filename=path)
+        self._machine.command("screendump", filename=path, **self._display)
         return check.Screen(path)
 
     def shows_caption(self, name, expected, minutes=5):
@@ -180,6 +212,19 @@ class Kiosk:
             if time.monotonic() > end:
                 raise Failed(f"the screen {'says nothing' if expected else 'says something'}: {name}.ppm")
             time.sleep(1)
+
+    def goes_on_painting(self, name, minutes=5):
+        """Two screens, seconds apart, differ as paintings do. The last is kept as NAME.ppm."""
+        end = time.monotonic() + 60 * minutes
+        before = self.screen(name)
+        while True:
+            time.sleep(2)
+            now = self.screen(name)
+            if now.kind() == "picture" and check.MOVED < now.changed(before) < 1.0:
+                return
+            if time.monotonic() > end:
+                raise Failed(f"it no longer paints: {name}.ppm")
+            before = now
 
     def paints(self, minutes):
         """Waits until two paintings differ, as those of a camera do. Text is a failure. Screens that differ much from the one

@@ -29,7 +29,8 @@ class Units(unittest.TestCase):
         for name in ("pleinair-kiosk", "pleinair-repair-station", "dbus"):
             self.write(name + ".service", "[Service]\nExecStart=/bin/true\n")
         # What they are dropped into comes from packages.
-        self.write("rauc.service", "[Service]\nExecStart=/bin/true\n")
+        for name in ("rauc", "systemd-repart", "systemd-udevd", "systemd-udev-trigger"):
+            self.write(name + ".service", "[Service]\nExecStart=/bin/true\n")
         self.write("media-pleinair.mount", "[Mount]\nWhat=/dev/sda1\nWhere=/media/pleinair\n")
         # The image has kmod, where these tests run it may be missing.
         modprobe = shutil.which("modprobe", path="/usr/sbin:/sbin") or "/bin/true"
@@ -63,7 +64,8 @@ class Units(unittest.TestCase):
 
     def test_what_is_dropped_into_others_is_well_formed(self):
         units = {os.path.dirname(each)[:-len(".d")] for each in self.drop_ins()}
-        self.assertEqual(units, {"rauc.service", "media-pleinair.mount"})
+        self.assertEqual(units, {"rauc.service", "media-pleinair.mount", "systemd-repart.service", "systemd-udevd.service", "systemd-udev-trigger.service",
+                                 "dev-pleinair-provisioning.device"})
         for name in units:
             with self.subTest(unit=name):
                 self.assertEqual(self.verify(name), "")

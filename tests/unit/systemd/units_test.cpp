@@ -153,6 +153,26 @@ TEST_F(Units, LookForTheSetUpWhereItsPartitionIsMountedReadOnly) {
   EXPECT_THAT(rules, HasSubstr("ENV{ID_FS_TYPE}==\"" + valueIn(mount, "Type") + "\""));
 }
 
+// What a service may open is what /proc/devices has when it starts: a display whose driver comes
+// later could not be opened.
+TEST(DeviceKinds, OfModulesAreKnownBeforeTheServicesStart) {
+  const std::map<std::string, std::string> modules{
+      {"video4linux", "videodev"}, {"media", "mc"}, {"drm", "drm"}, {"input", ""}, {"tty", ""}};
+  const std::string loaded = "\n" + textOf(PLEINAIR_MODULES);
+  int kinds = 0;
+  for (const std::string unit : {"pleinair-kiosk.service", "pleinair-rescue@.service"}) {
+    const std::string text = textOf(kUnits / unit);
+    static const std::regex kAllowed(R"(DeviceAllow=char-(\S+))");
+    for (std::sregex_iterator each(text.begin(), text.end(), kAllowed), end; each != end; ++each) {
+      const auto module = modules.find((*each)[1]);
+      ASSERT_NE(module, modules.end()) << (*each)[1];
+      EXPECT_THAT(loaded, HasSubstr("\n" + module->second)) << (*each)[1];
+      ++kinds;
+    }
+  }
+  EXPECT_GE(kinds, 6);
+}
+
 TEST_F(Units, OfTheRescueForgetFailuresThatWouldKeepTheServiceFromStarting) {
   EXPECT_THAT(valueIn(textOf(folder_.path() / "pleinair-rescue@.service"), "ExecStopPost"),
               HasSubstr("reset-failed %i.service"));

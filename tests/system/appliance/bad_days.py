@@ -1,0 +1,175 @@
+"""Bad days of a machine on the built image: its data partition, its clock, its devices, what it is set up by, and a presenter that
+hangs. Each ends in a painting."""
+import os
+import re
+import subprocess
+import time
+
+import kiosk
+from kiosk import Failed, Kiosk, check
+
+MINUTES = 45  # to a painting: 3 on an idle machine
+# The watchdog's 10 s, 5 s in which a stopped process does not end by itself, and the restart, in the machine's own time.
+MOST_TO_RESTART = 15 + 2
+IN_MEMORY = "lie in memory: the data partition cannot be written to"
+NO_CAMERA = "pleinair.software_gl console=ttyS0 systemd.journald.forward_to_console=1"
+# A site.toml, and what the screen and the journal say of it.
+WRONG_SITES = (
+    ("[painting\n", r"site\.toml:\d+:\d+"),
+    ("[painting]\nlok = \"oil\"\n", r"site\.toml:2.*lok"),
+    ("[painting]\nlook = 3\n", r"site\.toml:2"),
+    ("[painting]\nlook = \"none such\"\n", r"site\.toml.*none such"),
+    ("[output]\nlatency_ms = -5\n", r"site\.toml:2"),
+    ("\\377\\376\\000\\001", r"site\.toml"),
+)
+
+
+def _copy(disk, folder):
+    raw = os.path.join(folder, "disk.img")
+    kiosk.run("cp", "--sparse=always", disk, raw)
+    return raw
+
+
+class Partition:
+    """A partition of a raw disk as a file of its own, which is written back at the end of `with`."""
+
+    def __init__(self, disk, name):
+        self._disk, self._file = disk, os.path.join(os.path.dirname(disk), name + ".part")
+        places = check.partitions(disk)
+        self._begin = places[name]
+        later = [each for each in places.values() if each > self._begin]
+        # What lies behind the last one is the table's copy.
+        self._end = min(later) if later else os.path.getsize(disk) - (1 << 20)
+
+    def __enter__(self):
+        with open(self._disk, "rb") as disk, open(self._file, "wb") as file:
+            disk.seek(self._begin)
+            file.write(disk.read(self._end - self._begin))
+        return self._file
+
+    def __exit__(self, *error):
+        with open(self._file, "rb") as file, open(self._disk, "r+b") as disk:
+            disk.seek(self._begin)
+            disk.write(file.read())
+        os.remove(self._file)
+
+
+def _paints_without_data(disk, folder):
+    with Kiosk(kiosk.overlay(disk, os.path.join(folder, "disk.qcow2")), folder) as machine:
+        print(f"painting after {machine.paints(MINUTES):.0f} s", flush=True)
+        if not machine.has_said(IN_MEMORY):
+            raise Failed("the data partition was written to: " + machine.journal()[-2000:])
+    os.remove(disk)
+
+
+def data_corrupted(images, folder):
+    """The first megabytes of the data partition are noise."""
+    disk = _copy(images.disk(), folder)
+    with Partition(disk, "data") as file, open(file, "r+b") as content:
+        content.write(os.urandom(4 << 20))
+    _paints_without_data(disk, folder)
+
+
+def data_read_only(images, folder):
+    """The data partition's file system may not be written to."""
+    disk = _copy(images.disk(), folder)
+    with Partition(disk, "data") as file:
+        kiosk.run("/sbin/tune2fs", "-O", "read-only", file)
+    _paints_without_data(disk, folder)
+
+
+def data_full(images, folder):
+    """The data partition has no block left, not even root's."""
+    disk = _copy(images.disk(), folder)
+    filling = os.path.join(folder, "filling")
+    with Partition(disk, "data") as file:
+        with open(filling, "wb") as content:
+            content.write(os.urandom(os.path.getsize(file)))
+        subprocess.run(["/sbin/debugfs", "-w", "-R", f"write {filling} filling", file], check=True, capture_output=True)
+        said = subprocess.run(["/sbin/debugfs", "-R", "stats", file], check=True, capture_output=True, text=True).stdout
+        if not re.search(r"Free blocks:\s+0\b", said):
+            raise Failed("it is not full")
+    os.remove(filling)
+    _paints_without_data(disk, folder)
+
+
+def _service(machine):
+    return machine.run("systemctl show --value -p MainPID pleinair-kiosk").strip()
+
+
+def clock(images, folder):
+    """The clock is at 1970 at power on, and then jumps by a year, forth and back."""
+    disk = kiosk.overlay(images.disk(), os.path.join(folder, "disk.qcow2"))
+    with Kiosk(disk, folder, ("-rtc", "base=1970-01-01T00:00:10")) as machine:
+        print(f"painting after {machine.paints(MINUTES):.0f} s; the clock says " + machine.run("date -u").strip(), flush=True)
+        service = _service(machine)
+        for jump in ("+1 year", "-1 year", "-30 seconds"):
+            machine.run(f"date -s '{jump}'")
+            machine.goes_on_painting("after " + jump.replace(" ", "-"))
+        if _service(machine) != service:
+            raise Failed("the service was started again")
+
+
+def late(images, folder):
+    """There is neither a display nor a camera at power on; the display comes after a minute and a half, and the camera then."""
+    disk = _copy(images.disk(), folder)
+    check.add_words(disk, folder, NO_CAMERA)
+    overlay = kiosk.overlay(disk, os.path.join(folder, "disk.qcow2"))
+    with Kiosk(overlay, folder, ("-device", "pcie-root-port,id=late,chassis=1"), display=False) as machine:
+        machine.wait_for("waiting for an output", 15)
+        time.sleep(30)
+        service = _service(machine)
+        if machine.run("systemctl is-active pleinair-kiosk || true").strip() != "activating":
+            raise Failed("without a display the service is to go on starting")
+        machine.plug_in_display("late")
+        machine.wait_for("Started pleinair-kiosk.service", 5)
+        if machine.screen("waiting").kind() != "picture":
+            raise Failed("there is no waiting picture: waiting.ppm")
+        machine.run("modprobe vivid")
+        print(f"painting {machine.paints(MINUTES):.0f} s after the camera has come", flush=True)
+        if _service(machine) != service:
+            raise Failed("the service was started again")
+
+
+def wrong_sites(images, folder):
+    """What the machine is set up by has one mistake after the other: the painting goes on, with a text over it."""
+    with saved(images, folder) as machine:
+        service = _service(machine)
+        for number, (text, said) in enumerate(WRONG_SITES):
+            _write_site(machine, text)
+            machine.wait_for(said, 5)
+            machine.shows_caption(f"{number}-wrong", True)
+            machine.goes_on_painting(f"{number}-wrong")
+        _write_site(machine, "[painting]\\nlook = \"line_and_wash\"\\n")
+        machine.shows_caption("right", False)
+        if _service(machine) != service:
+            raise Failed("the service was started again")
+
+
+def _write_site(machine, text):
+    text = text.replace("\n", "\\n").replace('"', '\\"')
+    machine.run("mount -o remount,rw /media/pleinair && "
+                f"printf \"{text}\" >/media/pleinair/site.toml && mount -o remount,ro /media/pleinair")
+
+
+def hung(images, folder):
+    """The program stands still: the watchdog has it started again."""
+    with saved(images, folder) as machine:
+        before = _service(machine)
+        stopped = float(machine.run(f"kill -STOP {before}; cut -d ' ' -f 1 /proc/uptime"))
+        restarted = float(machine.wait_for(r"\[ *([0-9.]+)\] systemd\[1\]: Starting pleinair-kiosk\.service", 10).group(1))
+        print(f"started again {restarted - stopped:.1f} s after it stood still", flush=True)
+        if restarted - stopped > MOST_TO_RESTART:
+            raise Failed("that is too late")
+        machine.wait_for("Started pleinair-kiosk.service", 10)
+        machine.goes_on_painting("again", MINUTES)
+
+
+def saved(images, folder):
+    """A machine that has painted for a minute goes on."""
+    disk = os.path.join(folder, "disk.qcow2")
+    kiosk.run("cp", "--sparse=always", images.confirmed_disk(), disk)
+    return Kiosk(disk, folder, ("-loadvm", images.SAVED))
+
+
+SCENARIOS = {each.__name__: each for each in (data_corrupted, data_read_only, data_full, clock, late, wrong_sites, hung)}
