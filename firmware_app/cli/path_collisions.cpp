@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "hal/media/picture_paths.h"
 #include "hal/error.h"
+#include "hal/media/picture_paths.h"
 #include "hal/numbered_path.h"
 #include "hal/outputs/movie/movie_output.h"
 
@@ -47,8 +47,7 @@ struct Place {
   bool holds(const Place& file) const {
     const fs::path name = file.path.filename();
     if (folderOf(file.path) != canonicalPath) return false;
-    return pattern ? pattern->numberOf(name.string()).has_value()
-                   : hal::isPictureName(name);
+    return pattern ? pattern->numberOf(name.string()).has_value() : hal::isPictureName(name);
   }
 };
 

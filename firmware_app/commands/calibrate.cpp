@@ -17,8 +17,8 @@
 #include "firmware_app/config/camera_selection.h"
 #include "firmware_app/config/configured_parts.h"
 #include "firmware_app/offline/calibration_progress.h"
-#include "hal/media/picture_paths.h"
 #include "hal/cameras/recording/recording.h"
+#include "hal/media/picture_paths.h"
 #include "hal/media/png_file.h"
 #include "hal/numbered_path.h"
 #include "hal/overloaded.h"
@@ -48,8 +48,7 @@ constexpr hal::Duration kPollInterval = std::chrono::milliseconds(100);
 /// Whether the input is a set of photographs, which have no common motion, whatever their times.
 bool arePhotographs(const fs::path& input) {
   std::error_code ignored;
-  return fs::is_directory(input, ignored) || hal::looksNumbered(input) ||
-         hal::isPictureName(input);
+  return fs::is_directory(input, ignored) || hal::looksNumbered(input) || hal::isPictureName(input);
 }
 
 /// Whether `output` is an existing calibration, which will be replaced. Refuses any other existing

@@ -17,8 +17,8 @@
 #include "firmware_app/config/configuration_sections.h"
 #include "firmware_app/config/configured_parts.h"
 #include "firmware_app/overlay/procedure_film.h"
-#include "hal/media/picture_paths.h"
 #include "hal/cameras/recording/recording.h"
+#include "hal/media/picture_paths.h"
 #include "hal/numbered_path.h"
 #include "hal/outputs/movie/movie_output.h"
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include "hal/cameras/recording/movie_frames.h"
 #include "hal/cameras/recording/recording.h"
@@ -12,8 +13,12 @@
 
 namespace pleinair::hal::libav {
 
+/// What the module and the program were built as; those of another build call each other wrongly.
+inline constexpr std::string_view kBuild = PLEINAIR_BUILD;
+
 /// The functions of the HAL that need libav.
 struct EntryPoints {
+  std::string_view build;  ///< kBuild of the module
   decltype(&hal::readPicture) readPicture;
   decltype(&hal::readPictureRgb) readPictureRgb;
   decltype(&hal::readPictureRgba) readPictureRgba;
@@ -29,7 +34,7 @@ struct EntryPoints {
 };
 
 /// The module's file, beside the program or where it is installed, and its only symbol, which is a
-/// function `const EntryPoints* ()`. Both are always of one build.
+/// function `const EntryPoints* ()`.
 inline constexpr const char* kModuleFile = "pleinair-libav.so";
 inline constexpr const char* kModuleSymbol = "pleinair_libav_entry_points";
 

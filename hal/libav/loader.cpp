@@ -1,82 +1,118 @@
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
-#include <stdexcept>
+#include <span>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include <dlfcn.h>
+#include <pthread.h>
 
 #include "hal/libav/entry_points.h"
 #include "hal/program_part.h"
 
 // The functions of the HAL that need libav, for the program: the first call of one of them loads
-// libav and the 130 libraries that come with it. A live painting of a camera that gives raw images
+// libav and the libraries that come with it. A live painting of a camera that gives raw images
 // never does.
 
 namespace pleinair::hal {
 namespace {
 
-const libav::EntryPoints& loadModule() {
-  const std::filesystem::path path = programPart(libav::kModuleFile);
-  void* const module =
-      path.empty() ? nullptr : ::dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
-  if (module == nullptr) {
-    const char* const problem = path.empty() ? "it is not there" : ::dlerror();
-    throw std::runtime_error(std::string("cannot load ") + libav::kModuleFile + ": " +
-                             (problem == nullptr ? "" : problem) + "; install pleinair again");
-  }
-  using Entry = const libav::EntryPoints*();
-  return *reinterpret_cast<Entry*>(::dlsym(module, libav::kModuleSymbol))();
+using libav::EntryPoints;
+
+Error unusable(const std::string& problem) {
+  return Error{.kind = ErrorKind::kNotFound,
+               .subject = libav::kModuleFile,
+               .problem = problem,
+               .remedy = "start pleinair anew; if that does not help, install it again"};
 }
 
-const libav::EntryPoints& entryPoints() {
-  static const libav::EntryPoints& kLoaded = loadModule();
+Result<const EntryPoints*> loadModule() {
+  const std::filesystem::path path = programPart(libav::kModuleFile);
+  if (path.empty()) return tl::unexpected(unusable("is not there"));
+  void* const module = ::dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
+  if (module == nullptr) {
+    const char* const problem = ::dlerror();
+    return tl::unexpected(
+        unusable(std::string("cannot be loaded: ") + (problem == nullptr ? "" : problem)));
+  }
+  using Entry = const EntryPoints*();
+  auto* const entry = reinterpret_cast<Entry*>(::dlsym(module, libav::kModuleSymbol));
+  const EntryPoints* const points = entry == nullptr ? nullptr : entry();
+  if (points == nullptr || points->build != libav::kBuild) {
+    return tl::unexpected(unusable("is of another version: it was replaced in the meantime"));
+  }
+  return points;
+}
+
+/// Loaded by a thread of ordinary priority: it takes longer than a real-time thread may compute.
+Result<const EntryPoints*> loadAside() {
+  Result<const EntryPoints*> loaded = nullptr;
+  std::thread([&loaded] {
+    const sched_param ordinary{};
+    pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
+    loaded = loadModule();
+  }).join();
+  return loaded;
+}
+
+const Result<const EntryPoints*>& entryPoints() {
+  static const Result<const EntryPoints*> kLoaded = loadAside();
   return kLoaded;
+}
+
+template <class T, class... Formal, class... Actual>
+Result<T> call(Result<T> (*EntryPoints::*function)(Formal...), Actual&&... arguments) {
+  const Result<const EntryPoints*>& loaded = entryPoints();
+  if (!loaded) return tl::unexpected(loaded.error());
+  return ((*loaded)->*function)(std::forward<Actual>(arguments)...);
 }
 
 }  // namespace
 
 Result<Image> readPicture(const std::filesystem::path& path) {
-  return entryPoints().readPicture(path);
+  return call(&EntryPoints::readPicture, path);
 }
 Result<Image> readPictureRgb(const std::filesystem::path& path) {
-  return entryPoints().readPictureRgb(path);
+  return call(&EntryPoints::readPictureRgb, path);
 }
 Result<Image> readPictureRgba(const std::filesystem::path& path) {
-  return entryPoints().readPictureRgba(path);
+  return call(&EntryPoints::readPictureRgba, path);
 }
 Result<Image> decodeRgba(std::span<const std::uint8_t> bytes, const std::string& subject) {
-  return entryPoints().decodeRgba(bytes, subject);
+  return call(&EntryPoints::decodeRgba, bytes, subject);
 }
 Result<Rgb16Image> readRgb16(const std::filesystem::path& path) {
-  return entryPoints().readRgb16(path);
+  return call(&EntryPoints::readRgb16, path);
 }
 
 Result<libav::LentPicture> libav::decodeMotionJpeg(std::span<const std::uint8_t> bytes,
                                                    const std::string& subject) {
-  return entryPoints().decodeMotionJpeg(bytes, subject);
+  return call(&EntryPoints::decodeMotionJpeg, bytes, subject);
 }
 
 std::unique_ptr<Camera> openRecording(std::filesystem::path path, Clock& clock,
                                       RecordingOptions options) {
-  return entryPoints().openRecording(std::move(path), clock, std::move(options));
+  return orThrow(entryPoints())->openRecording(std::move(path), clock, std::move(options));
 }
 Result<void> forMovieFrames(const std::filesystem::path& movie, Duration from,
                             const TakeMovieFrame& take, const std::function<bool()>& isUnwanted) {
-  return entryPoints().forMovieFrames(movie, from, take, isUnwanted);
+  return call(&EntryPoints::forMovieFrames, movie, from, take, isUnwanted);
 }
 
 std::unique_ptr<MemoryOutput> openMovieOutput(std::filesystem::path path, MovieOptions options,
                                               FileSystem& files) {
-  return entryPoints().openMovieOutput(std::move(path), std::move(options), files);
+  return orThrow(entryPoints())->openMovieOutput(std::move(path), std::move(options), files);
 }
 std::unique_ptr<MemoryOutput> openMovieStream() {
-  return entryPoints().openMovieStream();
+  return orThrow(entryPoints())->openMovieStream();
 }
 
 Result<std::unique_ptr<captures::CaptureWriter>> captures::CaptureWriter::open(
     const std::filesystem::path& path, const CaptureHeader& header, TimePoint start) {
-  return entryPoints().openCapture(path, header, start);
+  return call(&EntryPoints::openCapture, path, header, start);
 }
 
 }  // namespace pleinair::hal

@@ -1,12 +1,13 @@
 #include "hal/libav/entry_points.h"
 
-// The module that libav_loader.cpp loads.
+// The module that loader.cpp loads.
 extern "C" __attribute__((visibility("default"))) const pleinair::hal::libav::EntryPoints*
 pleinair_libav_entry_points();
 
 const pleinair::hal::libav::EntryPoints* pleinair_libav_entry_points() {
   using namespace pleinair::hal;
-  static constexpr libav::EntryPoints kEntryPoints{.readPicture = readPicture,
+  static constexpr libav::EntryPoints kEntryPoints{.build = libav::kBuild,
+                                                   .readPicture = readPicture,
                                                    .readPictureRgb = readPictureRgb,
                                                    .readPictureRgba = readPictureRgba,
                                                    .decodeRgba = decodeRgba,

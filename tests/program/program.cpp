@@ -1,7 +1,9 @@
 #include "tests/program/program.h"
 
 #include <array>
+#include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -13,8 +15,13 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -84,6 +91,24 @@ void spoilStreams(Streams streams) {
   close(STDOUT_FILENO);
 }
 
+/// As RestrictAddressFamilies= of systemd does it: such calls of socket() fail.
+void forbidInternet() {
+  const std::array<sock_filter, 7> lines{{
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_socket, 0, 3),
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, args)),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, AF_INET, 2, 0),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, AF_INET6, 1, 0),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EAFNOSUPPORT),
+  }};
+  const sock_fprog program{.len = lines.size(), .filter = const_cast<sock_filter*>(lines.data())};
+  if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 ||
+      prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0) {
+    _exit(126);
+  }
+}
+
 void enterRemovedFolder() {
   const TemporaryFolder folder;
   if (chdir(folder.path().c_str()) != 0) _exit(127);
@@ -116,6 +141,7 @@ void enterRemovedFolder() {
     const rlimit limit{limits.fileDescriptors, limits.fileDescriptors};
     setrlimit(RLIMIT_NOFILE, &limit);
   }
+  if (limits.withoutInternet) forbidInternet();
   std::vector<char*> argv;
   std::string program = PLEINAIR_PROGRAM;
   argv.push_back(program.data());

@@ -52,6 +52,8 @@ struct ProgramLimits {
   /// with no variable of the program's but an empty PLEINAIR_CONFIG: what the machine is set up for
   /// does not count.
   std::vector<std::string> environment = {};
+  /// It cannot have sockets of IPv4 and IPv6, as in the sandbox of a service.
+  bool withoutInternet = false;
   /// Its working directory is one that was removed.
   bool inRemovedFolder = false;
   /// Called beside the program, on a thread of its own, with the program's process.

@@ -92,7 +92,7 @@ TEST_F(Run, PaintsIntoAFileWithoutADisplay) {
   EXPECT_GE(played->times.back(), 11 * 40ms) << "in real time";
 }
 
-/// The files that a process has mapped. Empty before its program is loaded, and once it has ended.
+/// The files that a process has mapped; empty once it has ended.
 std::string mapsOf(pid_t process) {
   const std::string path = "/proc/" + std::to_string(process) + "/maps";
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "re"),
@@ -106,7 +106,8 @@ std::string mapsOf(pid_t process) {
   return maps;
 }
 
-/// Whether the program maps a library while it runs.
+/// Whether the program maps a library while it runs. Before it is loaded, the process has the
+/// test's own.
 bool loads(const std::string& library, std::vector<std::string> arguments) {
   std::atomic<bool> isSeen = false;
   std::atomic<bool> isMapped = false;  // by then, what it is linked to is
@@ -116,8 +117,10 @@ bool loads(const std::string& library, std::vector<std::string> arguments) {
     for (int empty = 0; empty < 500;) {
       const std::string maps = mapsOf(program);
       empty = maps.empty() ? empty + 1 : 0;
-      if (maps.find("/libEGL") != std::string::npos) isMapped = true;
-      if (maps.find("/" + library) != std::string::npos) isSeen = true;
+      if (maps.find(PLEINAIR_PROGRAM) != std::string::npos) {
+        if (maps.find("/libEGL") != std::string::npos) isMapped = true;
+        if (maps.find("/" + library) != std::string::npos) isSeen = true;
+      }
       std::this_thread::sleep_for(1ms);
     }
   };
@@ -133,9 +136,19 @@ TEST_F(Run, LoadsLibavOnlyForWhatNeedsIt) {
                                      "160x120",  "--frames",        "3",
                                      "--output", path("%d.png")};
   EXPECT_FALSE(loads("libavcodec", raw));
+  EXPECT_FALSE(loads("pleinair-libav.so", raw));
   std::vector<std::string> movie = raw;
   movie.back() = path("out.mkv");
   EXPECT_TRUE(loads("libavcodec", movie)) << "else this test cannot fail";
+  EXPECT_TRUE(loads("pleinair-libav.so", movie));
+}
+
+TEST_F(Run, LooksForCamerasWhereItMayHaveNoInternetSocket) {
+  ProgramLimits limits;
+  limits.withoutInternet = true;
+  const ProgramRun devices = runProgram({"devices"}, limits);
+  EXPECT_EQ(devices.status, 0) << devices.error;
+  EXPECT_THAT(devices.error, testing::Not(HasSubstr("assertion"))) << "GLib's";
 }
 
 TEST_F(Run, FinishesItsFileWhenItIsTerminated) {

@@ -13,7 +13,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "hal/media/png_file.h"
-#include "hal/media/png_file.h"
 
 namespace pleinair::app {
 namespace {

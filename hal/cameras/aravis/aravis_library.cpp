@@ -22,11 +22,18 @@ void enableInterface(const char* name, bool isOn) {
   isOn ? arv_enable_interface(name) : arv_disable_interface(name);
 }
 
+/// Whether this process may have IPv4 sockets, which the sandbox of a service can forbid. Aravis
+/// 0.8.26 crashes without them where it looks for GigE cameras.
+bool mayUseIpv4() {
+  const FileDescriptor probe(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  return static_cast<bool>(probe);
+}
+
 class ArvLibrary final : public Library {
  public:
   Result<std::vector<FoundDevice>> discover(bool gige, bool usb3) override {
     const std::scoped_lock lock(mutex_);  // the list is Aravis' own, for all threads
-    enableInterface("GigEVision", gige);
+    enableInterface("GigEVision", gige && mayUseIpv4());
     enableInterface("USB3Vision", usb3);
     arv_update_device_list();
     std::vector<FoundDevice> devices;
@@ -46,6 +53,10 @@ class ArvLibrary final : public Library {
   }
 
   Result<std::unique_ptr<Device>> open(const std::string& name) override {
+    {
+      const std::scoped_lock lock(mutex_);
+      if (!mayUseIpv4()) enableInterface("GigEVision", false);
+    }
     GlibError error;
     Object<ArvCamera> camera(arv_camera_new(name.c_str(), error.out()));
     if (camera) return arvDevice(std::move(camera));

@@ -8,9 +8,9 @@
 #include <string>
 #include <system_error>
 
-#include "hal/media/picture_paths.h"
 #include "hal/media/file_input.h"
 #include "hal/media/picture_header.h"
+#include "hal/media/picture_paths.h"
 
 namespace pleinair::hal::recording {
 namespace {

@@ -13,9 +13,9 @@
 #include "hal/captures/capture_tags.h"
 #include "hal/captures/frame_facts.h"
 #include "hal/captures/stored_pixels.h"
+#include "hal/media/demuxer_io.h"
 #include "hal/media/demuxing.h"
 #include "hal/media/errors.h"
-#include "hal/media/demuxer_io.h"
 #include "hal/media/file_input.h"
 #include "hal/media/picture_decoder.h"
 
@@ -388,8 +388,7 @@ Result<std::unique_ptr<FrameSource>> openMovie(const std::filesystem::path& path
   libav::redirectLog();
   const bool isStandardInput = path == kStandardInput;
   const std::string subject = isStandardInput ? "standard input" : path.string();
-  Result<FileInput> input =
-      isStandardInput ? FileInput::standardInput() : FileInput::open(path);
+  Result<FileInput> input = isStandardInput ? FileInput::standardInput() : FileInput::open(path);
   if (!input) return tl::unexpected(input.error());
   DemuxedFile file{.io = libav::DemuxerIo(*std::move(input)), .context = nullptr, .complaint = {}};
   if (Result<void> opened = openContainer(file, subject); !opened) {

@@ -1,5 +1,11 @@
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "hal/cameras/recording/frame_source.h"
 #include "hal/media/picture_decoder.h"

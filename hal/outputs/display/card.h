@@ -197,8 +197,8 @@ class Cards {
 
   /// The nodes of the cards that are there, sorted: "/dev/dri/card0".
   virtual std::vector<std::string> nodes() = 0;
-  /// Errors: kPermissionDenied (kBusy in a node's first seconds, until udev has seen to it),
-  /// kNotFound, kUnsupported (it cannot show pictures, or not by atomic commits), kIo.
+  /// Errors: kPermissionDenied, kBusy (udev has not seen to the node yet), kNotFound, kUnsupported
+  /// (it cannot show pictures, or not by atomic commits), kIo.
   virtual Result<std::unique_ptr<Card>> open(const std::string& node) = 0;
 
   // What displays ask of the machine besides. Any thread.

@@ -13,6 +13,7 @@
 #include <poll.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 #include <xf86drm.h>
 #include <xf86drmMode.h>
@@ -363,14 +364,17 @@ class KernelCard final : public Card {
   std::mutex mutex_;  ///< of takeFlips()
 };
 
-/// Whether a node has come, or has changed hands, in the last seconds. It belongs to root alone
-/// until udev has looked at it.
-bool isNew(const std::string& node) {
-  constexpr std::time_t kSeconds = 10;
+/// Whether udev has not seen to a node yet: until then it belongs to root alone.
+bool isUnseen(const std::string& node) {
+  const std::filesystem::path database = "/run/udev/data";
   struct stat status {};
-  if (::stat(node.c_str(), &status) != 0) return false;
-  const std::time_t age = std::time(nullptr) - status.st_ctim.tv_sec;
-  return age >= 0 && age <= kSeconds;
+  std::error_code failure;
+  if (::stat(node.c_str(), &status) != 0 || !std::filesystem::exists(database, failure)) {
+    return false;
+  }
+  const std::string entry =
+      "c" + std::to_string(major(status.st_rdev)) + ":" + std::to_string(minor(status.st_rdev));
+  return !std::filesystem::exists(database / entry, failure);
 }
 
 class KernelCards final : public Cards {
@@ -391,11 +395,14 @@ class KernelCards final : public Cards {
   Result<std::unique_ptr<Card>> open(const std::string& node) override {
     FileDescriptor file(::open(node.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK));
     if (!file) {
-      const bool isDenied = errno == EACCES;
-      Error error =
-          errnoError(node, "cannot open", errno, isDenied ? "add yourself to the group video" : "");
-      if (isDenied && isNew(node)) error.kind = ErrorKind::kBusy;
-      return tl::unexpected(std::move(error));
+      const int problem = errno;
+      if (problem == EACCES && isUnseen(node)) {
+        return tl::unexpected(Error{.kind = ErrorKind::kBusy,
+                                    .subject = node,
+                                    .problem = "has just come: udev has not seen to it yet"});
+      }
+      return tl::unexpected(errnoError(node, "cannot open", problem,
+                                       problem == EACCES ? "add yourself to the group video" : ""));
     }
     // A card without displays (a GPU that only renders) has no such capability.
     if (drmSetClientCap(file.get(), DRM_CLIENT_CAP_UNIVERSAL_PLANES, 1) != 0 ||

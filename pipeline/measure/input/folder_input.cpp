@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "hal/media/picture_paths.h"
 #include "hal/media/picture_file.h"
+#include "hal/media/picture_paths.h"
 #include "pipeline/measure/input/kitti_flow.h"
 #include "pipeline/measure/input/measured_input.h"
 #include "pipeline/measure/input/motion_file.h"

@@ -130,14 +130,15 @@ class Images:
         return self._disk("0.5", CRASHING_SERVICE)
 
     def _disk(self, version, kiosk_settings=EMULATED, control=None):
-        certificate = os.path.join(self._made, "certificate")  # without a key there is no bundle, which takes longest
-        os.makedirs(certificate, exist_ok=True)
-        shutil.copy(os.path.join(self._keys, "update.crt"), certificate)
-        folder = self._make(version, 40, kiosk_settings, certificate, control)
-        disk = os.path.join(folder, f"pleinair-{ARCH}.img")
-        if boot_block(disk, folder).get("WORDS") != WORDS:
-            kiosk.check.add_words(disk, folder, WORDS)
-        return disk
+        with self._locked("disks"):
+            certificate = os.path.join(self._made, "certificate")  # without a key there is no bundle, which takes longest
+            os.makedirs(certificate, exist_ok=True)
+            shutil.copy(os.path.join(self._keys, "update.crt"), certificate)
+            folder = self._make(version, 40, kiosk_settings, certificate, control)
+            disk = os.path.join(folder, f"pleinair-{ARCH}.img")
+            if boot_block(disk, folder).get("WORDS") != WORDS:
+                kiosk.check.add_words(disk, folder, WORDS)
+            return disk
 
     def bundle(self, version="2.0"):
         return os.path.join(self._make(version, 40), f"pleinair-{ARCH}-{version}.raucb")

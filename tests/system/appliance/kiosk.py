@@ -141,13 +141,19 @@ class Kiosk:
 
     def run(self, command, minutes=5):
         """Runs a line of shell in the machine, as root. Returns what it said; anything but success is a failure."""
-        with socket.socket(socket.AF_UNIX) as port:
-            port.settimeout(60 * minutes)
-            port.connect(self._commands)
-            port.sendall(command.encode() + b"\n")
-            answer = b""
-            while not answer.endswith(b"\n"):
-                answer += port.recv(65536)
+        answer = b""
+        try:
+            with socket.socket(socket.AF_UNIX) as port:
+                port.settimeout(60 * minutes)
+                port.connect(self._commands)
+                port.sendall(command.encode() + b"\n")
+                while not answer.endswith(b"\n"):
+                    part = port.recv(65536)
+                    if not part:
+                        raise Failed(f"{command}: the machine has ended")
+                    answer += part
+        except OSError as error:
+            raise Failed(f"{command}: {error}") from None
         said, status = answer.decode().rsplit(" ", 1)
         said = base64.b64decode(said).decode(errors="replace")
         if int(status):

@@ -30,9 +30,10 @@ def _one_line(script):
 
 def judge_sockets(machine):
     """Nobody reaches the machine through a network. The look at its sockets finds one that is there."""
-    own = machine.run("systemd-socket-activate -l 4711 /bin/true & own=$!; sleep 10; " + _one_line(SOCKETS) + "; kill $own")
+    own = machine.run("systemd-socket-activate -l 4711 /bin/true & tcp=$!; systemd-socket-activate -d -l 4712 /bin/true & udp=$!; "
+                      "sleep 10; " + _one_line(SOCKETS) + "; kill $tcp $udp")
     found = machine.run(_one_line(SOCKETS))
-    if own.split()[-2:] != ["1", "0"]:
+    if own.split()[-2:] != ["1", "1"]:
         raise Failed(f"the look at sockets does not find its own: {own}")
     if found.split() != ["0", "0"]:
         raise Failed(f"something listens: {found}")
@@ -105,7 +106,10 @@ def soak_machine(machine, confirmed, minutes_until):
     began = time.monotonic()
     samples, processes = [], set()
     while time.monotonic() - began < 60 * MACHINE_MINUTES + Soak.SETTLED:
-        process, memory, descriptors, at, crashes = machine.run(_one_line(MEMORY)).split()
+        found = machine.run(_one_line(MEMORY)).split()
+        if len(found) != 5:
+            raise Failed(f"the service does not run: {found}")
+        process, memory, descriptors, at, crashes = found
         processes.add(process)
         samples.append((float(at), int(memory), int(descriptors)))
         if len(processes) != 1 or crashes != "0":

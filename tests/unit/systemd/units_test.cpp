@@ -166,11 +166,12 @@ TEST(DeviceKinds, OfModulesAreKnownBeforeTheServicesStart) {
     for (std::sregex_iterator each(text.begin(), text.end(), kAllowed), end; each != end; ++each) {
       const auto module = modules.find((*each)[1]);
       ASSERT_NE(module, modules.end()) << (*each)[1];
-      EXPECT_THAT(loaded, HasSubstr("\n" + module->second)) << (*each)[1];
+      if (module->second.empty()) continue;  // part of the kernel
+      EXPECT_THAT(loaded, HasSubstr("\n" + module->second + "\n")) << (*each)[1];
       ++kinds;
     }
   }
-  EXPECT_GE(kinds, 6);
+  EXPECT_GE(kinds, 4);
 }
 
 TEST_F(Units, OfTheRescueForgetFailuresThatWouldKeepTheServiceFromStarting) {
