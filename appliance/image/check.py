@@ -72,11 +72,13 @@ class Machine:
     """A QEMU machine that ends with the `with` block."""
 
     def __init__(self, disk, folder, restarts=False, arguments=(), arch="amd64", display=True):
-        """`restarts`: a restart of the machine does not end it. `arguments`: further ones of QEMU. `display`: whether it has one."""
+        """`restarts`: a restart of the machine does not end it. `arguments`: further ones of QEMU. `display`: whether one is there at
+        power on."""
         self._socket = os.path.join(folder, "qmp")
         emulator, firmware = EMULATORS[arch]
         self._process = subprocess.Popen(
-            [*emulator, *(DISPLAYS[arch] if display else ()), "-accel", ACCELERATOR, "-smp", "2", "-m", "2048", "-nodefaults", "-display", "none",
+            [*emulator, *(DISPLAYS[arch] if display else ()), "-accel", ACCELERATOR, "-smp", "2", "-m", "2048", "-nodefaults",
+             "-display", "none",
              *(() if restarts else ("-no-reboot",)),
              "-drive", f"if=pflash,format=raw,readonly=on,file={firmware}",
              "-drive", f"file={disk},if=none,id=disk,format={'raw' if disk.endswith('.img') else 'qcow2'}",

@@ -36,6 +36,6 @@ struct EntryPoints {
 /// The module's file, beside the program or where it is installed, and its only symbol, which is a
 /// function `const EntryPoints* ()`.
 inline constexpr const char* kModuleFile = "pleinair-libav.so";
-inline constexpr const char* kModuleSymbol = "pleinair_libav_entry_points";
+inline constexpr const char* kModuleSymbol = "pleinairLibavEntryPoints";
 
 }  // namespace pleinair::hal::libav

@@ -34,7 +34,7 @@ Result<const EntryPoints*> loadModule() {
   if (path.empty()) return tl::unexpected(unusable("is not there"));
   void* const module = ::dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
   if (module == nullptr) {
-    const char* const problem = ::dlerror();
+    const char* const problem = ::dlerror();  // NOLINT(concurrency-mt-unsafe): of this thread
     return tl::unexpected(
         unusable(std::string("cannot be loaded: ") + (problem == nullptr ? "" : problem)));
   }

@@ -2,9 +2,9 @@
 
 // The module that loader.cpp loads.
 extern "C" __attribute__((visibility("default"))) const pleinair::hal::libav::EntryPoints*
-pleinair_libav_entry_points();
+pleinairLibavEntryPoints();
 
-const pleinair::hal::libav::EntryPoints* pleinair_libav_entry_points() {
+const pleinair::hal::libav::EntryPoints* pleinairLibavEntryPoints() {
   using namespace pleinair::hal;
   static constexpr libav::EntryPoints kEntryPoints{.build = libav::kBuild,
                                                    .readPicture = readPicture,

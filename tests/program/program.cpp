@@ -143,7 +143,7 @@ void enterRemovedFolder() {
   }
   if (limits.withoutInternet) forbidInternet();
   std::vector<char*> argv;
-  std::string program = PLEINAIR_PROGRAM;
+  std::string program = limits.program.empty() ? PLEINAIR_PROGRAM : limits.program;
   argv.push_back(program.data());
   std::vector<std::string> copies = arguments;
   for (std::string& argument : copies) argv.push_back(argument.data());

@@ -32,6 +32,8 @@ enum class Streams {
 struct ProgramLimits {
   /// No file may grow beyond this: a full disk, as the program sees it. 0: none.
   unsigned long fileBytes = 0;
+  /// The program's file; empty: the built one.
+  std::string program = {};
   /// No more memory is given to it than so much address space; 0, or with a sanitizer: no limit.
   unsigned long addressSpaceBytes = 0;
   /// How many file descriptors it may have; 0: no limit.

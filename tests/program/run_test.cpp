@@ -143,6 +143,21 @@ TEST_F(Run, LoadsLibavOnlyForWhatNeedsIt) {
   EXPECT_TRUE(loads("pleinair-libav.so", movie));
 }
 
+TEST_F(Run, SaysWhatToDoWhereItsModuleIsMissing) {
+  const std::filesystem::path folder = std::filesystem::path(PLEINAIR_BUILD_DIR) / "program-alone";
+  std::filesystem::create_directory(folder);
+  ProgramLimits limits;
+  limits.program = folder / "pleinair";
+  std::filesystem::remove(limits.program);
+  std::filesystem::create_hard_link(PLEINAIR_PROGRAM, limits.program);
+  writeMedia(path("in.y4m"), 1);
+  const ProgramRun alone =
+      runProgram({"render", "--input", path("in.y4m"), "--output", path("out.png")}, limits);
+  std::filesystem::remove_all(folder);
+  EXPECT_GT(alone.status, 0) << "no signal";
+  EXPECT_THAT(alone.error, HasSubstr("pleinair-libav.so: is not there; start pleinair anew"));
+}
+
 TEST_F(Run, LooksForCamerasWhereItMayHaveNoInternetSocket) {
   ProgramLimits limits;
   limits.withoutInternet = true;

@@ -107,7 +107,8 @@ def clock(images, folder):
 
 
 def late(images, folder):
-    """There is neither a display nor a camera at power on; the display comes half a minute after the service's start, and then the camera."""
+    """There is neither a display nor a camera at power on; the display comes half a minute after the service's start, and then the
+    camera."""
     disk = _copy(images.disk(), folder)
     check.add_words(disk, folder, NO_CAMERA)
     overlay = kiosk.overlay(disk, os.path.join(folder, "disk.qcow2"))

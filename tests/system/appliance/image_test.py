@@ -15,6 +15,7 @@ import os
 import random
 import re
 import shutil
+import statistics
 import subprocess
 import sys
 import time
@@ -301,29 +302,47 @@ def measured_patience(disk, kernel, folder):
     return patience.ratio([patience.host_seconds(program) for _ in runs[1:]], runs[1:])
 
 
+BOOTS = 3  # the machine under the emulator is at times slower for seconds
+
+
+def first_picture(machine):
+    """Seconds after the kernel's start: the control unit, the service's begin, its first picture."""
+    machine.wait_for("Started pleinair-kiosk.service", 15)
+    journal = machine.journal()
+    service = r"\[ *([0-9.]+)\] systemd\[1\]: {} pleinair-kiosk\.service"
+    control, begun, picture = (seconds_of(each, journal) for each in (
+        r"CONTROL ([0-9.]+)", service.format("Starting"), service.format("Started")))
+    if not control < begun:
+        raise Failed("the control unit ran after the service: it says nothing")
+    print(f"seconds after the kernel: control unit {control:.1f}, service begun {begun:.1f}, its first picture {picture:.1f}",
+          flush=True)
+    return control, begun, picture
+
+
 def boot(images, folder):
-    """The times of one start, beside a unit that depends on nothing; no console is seen, and nothing listens."""
+    """The times of three new machines' starts, beside a unit that depends on nothing; no console is seen, and nothing listens."""
     made = images.timed_disk()
-    disk = kiosk.overlay(set_up(made, folder), os.path.join(folder, "disk.qcow2"))
-    slower = measured_patience(disk, kernel_of(made), folder)
-    with Kiosk(disk, folder) as machine:
-        machine.wait_for("Started pleinair-kiosk.service", 15)
-        ready_at = time.monotonic()
-        machine.paints(CONFIRM_MINUTES)
-        journal = machine.journal()
-        control = seconds_of(r"CONTROL ([0-9.]+)", journal)
-        begun = seconds_of(r"\[ *([0-9.]+)\] systemd\[1\]: Starting pleinair-kiosk\.service", journal)
-        picture = seconds_of(r"\[ *([0-9.]+)\] systemd\[1\]: Started pleinair-kiosk\.service", journal)
-        painting = picture + time.monotonic() - ready_at
-        print(f"seconds after the kernel: control unit {control:.1f}, service begun {begun:.1f}, its first picture "
-              f"{picture:.1f}, painting {painting:.1f}")
-        soak.judge_sockets(machine)
-        if not control < begun:
-            raise Failed("the control unit ran after the service: it says nothing")
-        if picture - control > FIRST_PICTURE_LIMIT * slower:
-            raise Failed(f"the first picture came {picture - control:.1f} s after the control unit, {slower:.1f} times slowed down")
-        if painting - control > PAINTING_LIMIT * (painting - begun):
-            raise Failed(f"the service takes {painting - begun:.1f} s to paint; it was {painting - control:.1f} s after the control unit")
+    raw = set_up(made, folder)
+    shares = []
+    for number in range(BOOTS):
+        disk = os.path.join(folder, f"disk-{number}.qcow2")
+        slower = measured_patience(kiosk.overlay(raw, disk), kernel_of(made), folder)
+        with Kiosk(disk, folder) as machine:
+            control, begun, picture = first_picture(machine)
+            ready_at = time.monotonic()
+            shares.append((picture - control) / slower)
+            if number < BOOTS - 1:
+                continue
+            machine.paints(CONFIRM_MINUTES)
+            painting = picture + time.monotonic() - ready_at
+            print(f"painting {painting:.1f}", flush=True)
+            soak.judge_sockets(machine)
+    print("the first picture after the control unit, over the patience: " + ", ".join(f"{each:.2f}" for each in shares), flush=True)
+    if statistics.median(shares) > FIRST_PICTURE_LIMIT:
+        raise Failed("the first picture comes too late")
+    if painting - control > PAINTING_LIMIT * (painting - begun):
+        raise Failed(f"the service takes {painting - begun:.1f} s to paint; it was {painting - control:.1f} s after the control "
+                     "unit")
 
 
 def crashes(images, folder):
@@ -468,7 +487,8 @@ def soak_painting(images, folder):
         soak.soak_machine(machine, CONFIRMED.format("a"), CONFIRM_MINUTES)
 
 
-SCENARIOS = {**bad_days.SCENARIOS, "boot": boot, "crashes": crashes, "updates": updates, "copies": copies, "install": install, "soak": soak_painting,
+SCENARIOS = {**bad_days.SCENARIOS, "boot": boot, "crashes": crashes, "updates": updates, "copies": copies, "install": install,
+             "soak": soak_painting,
              "soak_in_chroot": lambda images, folder: soak.soak_chroot(images.tar(), folder)}
 
 

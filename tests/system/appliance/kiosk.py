@@ -106,7 +106,8 @@ class Kiosk:
     """Switched on from `with` to its end. Restarts of the machine itself are its own matter."""
 
     def __init__(self, disk, folder, devices=(), display=True):
-        """`disk`: a qcow2 file. `display`: whether one is there at power on. `devices`: further arguments of QEMU, such as ("-loadvm", NAME) for a machine that was saved on it."""
+        """`disk`: a qcow2 file. `display`: whether one is there at power on. `devices`: further arguments of QEMU, such as
+        ("-loadvm", NAME) for a machine that was saved on it."""
         self.folder = folder
         self._disk = disk
         self._devices = devices
@@ -123,7 +124,8 @@ class Kiosk:
             os.remove(self._journal)
         self._read = 0
         self._machine = check.Machine(self._disk, self.folder, restarts=True, display=self._has_display, arguments=(
-            "-serial", f"file:{self._journal}", "-serial", f"unix:{self._commands},server,nowait", "-device", "qemu-xhci,id=usb", *self._devices))
+            "-serial", f"file:{self._journal}", "-serial", f"unix:{self._commands},server,nowait",
+            "-device", "qemu-xhci,id=usb", *self._devices))
         self._machine.__enter__()
         return self
 
