@@ -33,12 +33,11 @@ ACCELERATOR = "kvm" if HAS_KVM else "tcg,thread=multi"
 PROCESSOR = "host" if HAS_KVM else "Nehalem"
 # How each architecture's machine is emulated: the emulator and its machine, with the firmware (Debian's).
 EMULATORS = {
-    "amd64": (["qemu-system-x86_64", "-M", "q35", "-cpu", PROCESSOR],
+    "amd64": (["qemu-system-x86_64", "-M", "q35", "-cpu", PROCESSOR, "-device", "virtio-vga"],
               "/usr/share/OVMF/OVMF_CODE_4M.fd"),
-    "arm64": (["qemu-system-aarch64", "-M", "virt", "-cpu", "cortex-a72"],
+    "arm64": (["qemu-system-aarch64", "-M", "virt", "-cpu", "cortex-a72", "-device", "virtio-gpu-pci"],
               "/usr/share/AAVMF/AAVMF_CODE.fd"),
 }
-DISPLAYS = {"amd64": ("-device", "virtio-vga"), "arm64": ("-device", "virtio-gpu-pci")}
 WORDS = "pleinair.software_gl modules_load=vivid"
 EDIT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "root", "usr", "lib", "pleinair", "bin", "grub-editenv")
 
@@ -71,14 +70,12 @@ def add_words(disk, folder, words=WORDS):
 class Machine:
     """A QEMU machine that ends with the `with` block."""
 
-    def __init__(self, disk, folder, restarts=False, arguments=(), arch="amd64", display=True):
-        """`restarts`: a restart of the machine does not end it. `arguments`: further ones of QEMU. `display`: whether one is there at
-        power on."""
+    def __init__(self, disk, folder, restarts=False, arguments=(), arch="amd64"):
+        """`restarts`: a restart of the machine does not end it. `arguments`: further ones of QEMU."""
         self._socket = os.path.join(folder, "qmp")
         emulator, firmware = EMULATORS[arch]
         self._process = subprocess.Popen(
-            [*emulator, *(DISPLAYS[arch] if display else ()), "-accel", ACCELERATOR, "-smp", "2", "-m", "2048", "-nodefaults",
-             "-display", "none",
+            [*emulator, "-accel", ACCELERATOR, "-smp", "2", "-m", "2048", "-nodefaults", "-display", "none",
              *(() if restarts else ("-no-reboot",)),
              "-drive", f"if=pflash,format=raw,readonly=on,file={firmware}",
              "-drive", f"file={disk},if=none,id=disk,format={'raw' if disk.endswith('.img') else 'qcow2'}",

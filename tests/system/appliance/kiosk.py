@@ -105,14 +105,11 @@ def has_caption(screen):
 class Kiosk:
     """Switched on from `with` to its end. Restarts of the machine itself are its own matter."""
 
-    def __init__(self, disk, folder, devices=(), display=True):
-        """`disk`: a qcow2 file. `display`: whether one is there at power on. `devices`: further arguments of QEMU, such as
-        ("-loadvm", NAME) for a machine that was saved on it."""
+    def __init__(self, disk, folder, devices=()):
+        """`disk`: a qcow2 file. `devices`: further arguments of QEMU, such as ("-loadvm", NAME) for a machine that was saved on it."""
         self.folder = folder
         self._disk = disk
         self._devices = devices
-        self._has_display = display
-        self._display = {}  # that of a screendump: the only one
         self._journal = os.path.join(folder, "journal.log")
         self._commands = os.path.join(folder, "commands")
         self._machine = None
@@ -123,7 +120,7 @@ class Kiosk:
         with contextlib.suppress(FileNotFoundError):
             os.remove(self._journal)
         self._read = 0
-        self._machine = check.Machine(self._disk, self.folder, restarts=True, display=self._has_display, arguments=(
+        self._machine = check.Machine(self._disk, self.folder, restarts=True, arguments=(
             "-serial", f"file:{self._journal}", "-serial", f"unix:{self._commands},server,nowait",
             "-device", "qemu-xhci,id=usb", *self._devices))
         self._machine.__enter__()
@@ -170,10 +167,6 @@ class Kiosk:
                                                  "file": {"driver": "file", "filename": file}})
         self._machine.command("device_add", driver="usb-storage", bus="usb.0", drive=name, id=name + "-device")
 
-    def plug_in_display(self, port):
-        self._machine.command("device_add", driver="virtio-gpu-pci", bus=port, id="late-display")
-        self._display = {"device": "late-display"}
-
     def pull(self, name="stick"):
         self._machine.command("device_del", id=name + "-device")
         for _ in range(100):
@@ -209,7 +202,7 @@ class Kiosk:
     def screen(self, name):
         """What the screen shows now; kept as NAME.ppm."""
         path = os.path.join(self.folder, name + ".ppm")
-        self._machine.command("screendump", filename=path, **self._display)
+        self._machine.command("screendump", filename=path)
         return check.Screen(path)
 
     def shows_caption(self, name, expected, minutes=5):
