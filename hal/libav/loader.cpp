@@ -1,7 +1,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <memory>
+#include <new>
 #include <span>
 #include <string>
 #include <thread>
@@ -9,6 +11,7 @@
 
 #include <dlfcn.h>
 #include <pthread.h>
+#include <sys/resource.h>
 
 #include "hal/libav/entry_points.h"
 #include "hal/program_part.h"
@@ -29,10 +32,17 @@ Error unusable(const std::string& problem) {
                .remedy = "start pleinair anew; if that does not help, install it again"};
 }
 
+/// dlopen() does not tell whether it is memory that it lacks.
+bool isMemoryLimited() {
+  rlimit memory{};
+  return ::getrlimit(RLIMIT_AS, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY;
+}
+
 Result<const EntryPoints*> loadModule() {
   const std::filesystem::path path = programPart(libav::kModuleFile);
   if (path.empty()) return tl::unexpected(unusable("is not there"));
   void* const module = ::dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
+  if (module == nullptr && isMemoryLimited()) throw std::bad_alloc();
   if (module == nullptr) {
     const char* const problem = ::dlerror();  // NOLINT(concurrency-mt-unsafe): of this thread
     return tl::unexpected(
@@ -47,15 +57,15 @@ Result<const EntryPoints*> loadModule() {
   return points;
 }
 
-/// Loaded by a thread of ordinary priority: it takes longer than a real-time thread may compute.
+/// By a thread of ordinary priority: it takes longer than a real-time thread may compute.
 Result<const EntryPoints*> loadAside() {
-  Result<const EntryPoints*> loaded = nullptr;
-  std::thread([&loaded] {
+  std::packaged_task<Result<const EntryPoints*>()> task(loadModule);
+  std::thread([&task] {
     const sched_param ordinary{};
     pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
-    loaded = loadModule();
+    task();
   }).join();
-  return loaded;
+  return task.get_future().get();
 }
 
 const Result<const EntryPoints*>& entryPoints() {
