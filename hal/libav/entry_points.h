@@ -13,7 +13,8 @@
 
 namespace pleinair::hal::libav {
 
-/// What the module and the program were built as; those of another build call each other wrongly.
+/// The version that this was built as. A program and a module of two versions would call each
+/// other wrongly.
 inline constexpr std::string_view kBuild = PLEINAIR_BUILD;
 
 /// The functions of the HAL that need libav.

@@ -54,7 +54,7 @@ struct PngWriting {
   }
 };
 
-/// What encodePng() does between setjmp() and longjmp(): no object in it has a destructor.
+/// The part of encodePng() between setjmp() and longjmp(): no object in it has a destructor.
 bool runPngJob(png_structp png, png_infop info, const ImageView& picture, int colourType,
                const PngTags& tags) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;

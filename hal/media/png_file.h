@@ -10,7 +10,7 @@
 
 namespace pleinair::hal {
 
-/// What a PNG says of its pixels (ISO/IEC 15948 §11.3.2.5, §11.3.4.3).
+/// Statements of a PNG about its pixels (ISO/IEC 15948 §11.3.2.5, §11.3.4.3).
 struct PngTags {
   bool isSrgb = false;
   std::optional<double> dotsPerInch = std::nullopt;

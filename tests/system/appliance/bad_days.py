@@ -9,8 +9,8 @@ import kiosk
 from kiosk import Failed, Kiosk, check
 
 MINUTES = 45  # to a painting: 3 on an idle machine
-# The watchdog's 10 s, 5 s in which a stopped process does not end by itself, and the restart, in the machine's own time.
-MOST_TO_RESTART = 15 + 2
+# The watchdog's 10 s and the 5 s in which a stopped process does not end by itself, in the machine's own time.
+MOST_TO_RESTART = 15
 IN_MEMORY = "lie in memory: the data partition cannot be written to"
 # Neither the virtual camera's driver nor the card's is loaded by itself. QEMU plugs in no card while a machine runs.
 NEITHER = "pleinair.software_gl modprobe.blacklist=virtio_gpu console=ttyS0 systemd.journald.forward_to_console=1"
@@ -108,8 +108,8 @@ def clock(images, folder):
 
 
 def late(images, folder):
-    """There is neither a display nor a camera at power on; the display comes half a minute after the service's start, and then the
-    camera."""
+    """The drivers of the card and of the camera come late: the card's half a minute after the service's start, and then the
+    camera's."""
     disk = _copy(images.disk(), folder)
     check.add_words(disk, folder, NEITHER)
     with Kiosk(kiosk.overlay(disk, os.path.join(folder, "disk.qcow2")), folder) as machine:

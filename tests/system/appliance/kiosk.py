@@ -22,6 +22,9 @@ def _check_module():
 
 
 check = _check_module()
+ARCH = "amd64"
+CONFIRM_MINUTES = 45  # to the first painting and a minute more: 6 on an idle machine
+SITE = b'[painting]\nlook = "line_and_wash"\n'
 
 
 class Failed(AssertionError):
@@ -102,11 +105,28 @@ def has_caption(screen):
     return sum(each <= 110 for each in rim) > 0.7 * len(rim)
 
 
+def kernel_of(disk):
+    """The folder of the kernel, initial file system and command line that belong to a disk of `Images`."""
+    return os.path.join(os.path.dirname(disk), f"kernel-{ARCH}")
+
+
+def set_up(disk, folder):
+    """A new machine's disk with a site.toml on the partition that any computer can write."""
+    raw = os.path.join(folder, "disk.img")
+    run("cp", "--sparse=always", disk, raw)
+    site = os.path.join(folder, "site.toml")
+    with open(site, "wb") as file:
+        file.write(SITE)
+    run("mcopy", "-i", f"{raw}@@{check.partitions(raw)['provisioning']}", site, "::")
+    return raw
+
+
 class Kiosk:
     """Switched on from `with` to its end. Restarts of the machine itself are its own matter."""
 
     def __init__(self, disk, folder, devices=()):
-        """`disk`: a qcow2 file. `devices`: further arguments of QEMU, such as ("-loadvm", NAME) for a machine that was saved on it."""
+        """`disk`: a qcow2 file. `devices`: further arguments of QEMU, such as ("-loadvm", NAME) for a machine that was saved on
+        it."""
         self.folder = folder
         self._disk = disk
         self._devices = devices

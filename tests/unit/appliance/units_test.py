@@ -64,8 +64,8 @@ class Units(unittest.TestCase):
 
     def test_what_is_dropped_into_others_is_well_formed(self):
         units = {os.path.dirname(each)[:-len(".d")] for each in self.drop_ins()}
-        self.assertEqual(units, {"rauc.service", "media-pleinair.mount", "systemd-repart.service", "systemd-udevd.service", "systemd-udev-trigger.service",
-                                 "dev-pleinair-provisioning.device"})
+        self.assertEqual(units, {"rauc.service", "media-pleinair.mount", "systemd-repart.service", "systemd-udevd.service",
+                                 "systemd-udev-trigger.service", "dev-pleinair-provisioning.device"})
         for name in units:
             with self.subTest(unit=name):
                 self.assertEqual(self.verify(name), "")

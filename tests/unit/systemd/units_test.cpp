@@ -153,7 +153,7 @@ TEST_F(Units, LookForTheSetUpWhereItsPartitionIsMountedReadOnly) {
   EXPECT_THAT(rules, HasSubstr("ENV{ID_FS_TYPE}==\"" + valueIn(mount, "Type") + "\""));
 }
 
-// What a service may open is what /proc/devices has when it starts: a display whose driver comes
+// A service may open the kinds of devices that /proc/devices has when it starts: a display whose driver comes
 // later could not be opened.
 TEST(DeviceKinds, OfModulesAreKnownBeforeTheServicesStart) {
   const std::map<std::string, std::string> modules{
