@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -20,8 +21,10 @@
 #include "hal/clock.h"
 #include "hal/console/virtual_terminal.h"
 #include "hal/error.h"
+#include "hal/media/picture_paths.h"
 #include "hal/outputs/display/display_output.h"
 #include "hal/outputs/registry.h"
+#include "pipeline/present/waiting_picture.h"
 
 namespace pleinair::app {
 namespace {
@@ -30,9 +33,13 @@ constexpr hal::Duration kStepInterval = std::chrono::milliseconds(20);
 constexpr const char* kDisplay = "display";
 constexpr const char* kFit = "fit";
 
-/// Where the picture is shown, and why there may be no painting.
+/// Of a picture that is written to a file.
+constexpr hal::FrameSize kFileSize{1280, 720};
+
+/// Where the picture is shown or written, and why there may be no painting.
 struct RescueJob {
-  std::vector<std::string> targets;
+  std::vector<std::string> targets;  ///< screens
+  std::vector<std::string> files;
   hal::OutputOptionsByKind options;
   std::string problem;  ///< of the configuration; empty: none
 };
@@ -45,14 +52,16 @@ RescueJob rescueJobOf(const ConfigurationRequest& request) {
     job.options = output.options;
     for (const std::filesystem::path& target : output.targets) {
       const auto kind = hal::outputKindOf(target.string());
-      if (kind && (*kind)->traits.showsWaiting) job.targets.push_back(target.string());
+      if (!kind) continue;
+      if ((*kind)->traits.showsWaiting) job.targets.push_back(target.string());
+      if (hal::isPictureName(target)) job.files.push_back(target.string());
     }
   } catch (const config::ConfigError& error) {
     job.problem = error.what();
   } catch (const hal::Failure& error) {
     job.problem = error.what();
   }
-  if (job.targets.empty()) job.targets.emplace_back(kDisplay);
+  if (job.targets.empty() && job.files.empty()) job.targets.emplace_back(kDisplay);
   // The picture has no shape of its own: it fills the screen.
   for (const hal::OutputKind& kind : hal::outputKinds()) {
     const bool hasFit =
@@ -65,6 +74,24 @@ RescueJob rescueJobOf(const ConfigurationRequest& request) {
 std::optional<hal::Image> lastPainting() {
   hal::Result<std::optional<hal::Image>> kept = LastPainting(stateFolder()).read();
   return kept ? *std::move(kept) : std::nullopt;
+}
+
+/// Writes it once.
+void writePicture(const std::string& file, const present::WaitingText& text,
+                  const std::optional<hal::Image>& painting) {
+  const hal::Image picture =
+      present::waitingPicture(kFileSize, painting ? painting->view() : hal::ImageView(), text);
+  const std::unique_ptr<hal::MemoryOutput> output = orThrow(hal::openFileOutput(file));
+  const hal::OutputFormat format =
+      orThrow(output->start({.size = kFileSize, .framePeriod = std::nullopt}));
+  hal::Image opaque(format.frame);
+  const auto from = picture.view().planes[0].bytes;
+  const auto to = opaque.plane(0);
+  for (std::size_t pixel = 0; 4 * pixel < from.size(); ++pixel) {
+    std::copy_n(from.data() + 4 * pixel, 3, to.data() + 3 * pixel);
+  }
+  orThrow(output->write(opaque.view(), {}));
+  orThrow(output->finish());
 }
 
 std::unique_ptr<hal::VirtualTerminal> takeConsole() {
@@ -93,11 +120,14 @@ int showRescue(const RescueOptions& options) {
   if (options.isProvisioned) request.siteFile = keptSiteFile(stateFolder());
   const RescueJob job = rescueJobOf(request);
   if (!job.problem.empty()) spdlog::warn("{}", job.problem);
+  const present::WaitingText text{
+      .title = options.title, .detail = job.problem.empty() ? options.detail : job.problem};
+  for (const std::string& file : job.files) writePicture(file, text, lastPainting());
+  if (job.targets.empty()) return 0;
   const std::unique_ptr<hal::VirtualTerminal> terminal = takeConsole();
   RescuePicture picture(
       job.targets, [&](const std::string& target) { return hal::openOutput(target, job.options); },
-      {.title = options.title, .detail = job.problem.empty() ? options.detail : job.problem},
-      lastPainting(), reporter.renewal(), clock);
+      text, lastPainting(), reporter.renewal(), clock);
   const hal::TimePoint end = endOf(options, clock.now());
   std::string problem;
   while (Interrupt::received() == 0 && clock.now() < end) {

@@ -227,7 +227,8 @@ void addRescue(CLI::App& app, RescueOptions& options, std::function<int()>& chos
   CLI::App& command = *app.add_subcommand(
       "rescue", "show a picture with a text on a display, without a camera and without GL");
   addOutputs(command, options.configuration,
-             "the display (default: those of the configuration, else the first)");
+             "the display (default: those of the configuration, else the first), or a file "
+             "(.png, .jpg, .tif) that the picture is written to");
   command.add_option("--title", options.title, "the text (default: that the painting comes back)")
       ->type_name("TEXT");
   command

@@ -11,6 +11,7 @@ from kiosk import Failed, Kiosk, check
 MINUTES = 45  # to a painting: 3 on an idle machine
 # The watchdog's 10 s and the 5 s in which a stopped process does not end by itself, in the machine's own time.
 MOST_TO_RESTART = 15
+LOST_MINUTES = 6
 IN_MEMORY = "lie in memory: the data partition cannot be written to"
 # Neither the virtual camera's driver nor the card's is loaded by itself. QEMU plugs in no card while a machine runs.
 NEITHER = "pleinair.software_gl modprobe.blacklist=virtio_gpu console=ttyS0 systemd.journald.forward_to_console=1"
@@ -162,6 +163,86 @@ def hung(images, folder):
         print(f"painting again {machine.paints(MINUTES):.0f} s later", flush=True)
 
 
+# appliance/image/cannot-start.jpg: paper in the corners, and a sky between them.
+def _is_trouble(screen):
+    def colour(x, y):
+        at = 3 * (int(y * screen.height) * screen.width + int(x * screen.width))
+        return screen.pixels[at:at + 3]
+
+    corners = [colour(x, y) for x in (0.004, 0.99) for y in (0.005, 0.99)]
+    red, _, blue = colour(0.5, 0.15)
+    return all(min(each) > 215 and each[0] > each[2] for each in corners) and 130 < red < blue - 12
+
+
+def _shows_trouble(machine, name, minutes):
+    """Waits for the boot loader's picture; keeps it as NAME.ppm."""
+    end = time.monotonic() + 60 * minutes
+    while not _is_trouble(machine.screen(name)):
+        if time.monotonic() > end:
+            raise Failed(f"the screen does not say that no slot starts: {name}.ppm")
+        time.sleep(0.5)
+
+
+def slots_bad(images, folder):
+    """Neither system can be opened, and then neither kernel: a picture says that the machine goes on trying. With one of them
+    mended, it paints, and no longer says so."""
+    disk = _copy(images.disk(), folder)
+    places = check.partitions(disk)
+    with open(os.path.join(kiosk.kernel_of(images.disk()), "cmdline")) as file:
+        tree = int(re.search(r"pleinair\.hashoffset=(\d+)", file.read()).group(1))
+    spoilt = {name: places[name] + offset for name, offset in
+              (("root-a", tree), ("root-b", tree), ("kernel-a", 0), ("kernel-b", 0))}
+    kept = {}
+
+    def spoil(*names):
+        with open(disk, "r+b") as file:
+            for name in names:
+                file.seek(spoilt[name])
+                kept[name] = file.read(65536)
+                file.seek(spoilt[name])
+                file.write(bytes(65536))
+
+    def mend(*names):
+        with open(disk, "r+b") as file:
+            for name in names:
+                file.seek(spoilt[name])
+                file.write(kept[name])
+
+    spoil("root-a", "root-b")
+    with Kiosk(disk, folder) as machine:
+        for root in ("vda4", "vda5"):
+            machine.wait_for(f"{root} cannot be opened", 15)
+        _shows_trouble(machine, "no-root", 10)
+        machine.wait_for("vda4 cannot be opened", 5)
+        _shows_trouble(machine, "no-root-again", 5)
+    spoil("kernel-a", "kernel-b")
+    with Kiosk(disk, os.path.join(folder, "kernels")) as machine:
+        _shows_trouble(machine, "no-kernel", 5)
+    mend("root-b", "kernel-b")
+    with Kiosk(disk, os.path.join(folder, "mended")) as machine:
+        print(f"painting after {machine.paints(MINUTES):.0f} s", flush=True)
+        machine.wait_for("slot b is confirmed", MINUTES)
+        said = machine.run("/usr/lib/pleinair/bin/grub-editenv /boot/efi/EFI/BOOT/grubenv list")
+        if "TROUBLED=\n" not in said:
+            raise Failed("it will still say that no slot starts: " + said)
+
+
+def gpu_lost(images, folder):
+    """The GPU is lost, and so is every context that is made anew: the last painting stays on the screen, until it comes back."""
+    with Kiosk(kiosk.overlay(images.losing_disk(), os.path.join(folder, "disk.qcow2")), folder) as machine:
+        print(f"painting after {machine.paints(MINUTES):.0f} s", flush=True)
+        machine.run("touch /run/lost-gpu")
+        machine.wait_for("GPU: was reset", 5)
+        end = time.monotonic() + 60 * LOST_MINUTES
+        while time.monotonic() < end:
+            screen = machine.screen("lost")
+            if screen.kind() != "picture":
+                raise Failed("the screen shows nothing, or a console: lost.ppm")
+            time.sleep(1)
+        machine.run("rm /run/lost-gpu")
+        print(f"painting {machine.paints(MINUTES):.0f} s after the GPU was there again", flush=True)
+
+
 def _saved(images, folder):
     """A machine that has painted for a minute goes on."""
     disk = os.path.join(folder, "disk.qcow2")
@@ -169,4 +250,5 @@ def _saved(images, folder):
     return Kiosk(disk, folder, ("-loadvm", images.SAVED))
 
 
-SCENARIOS = {each.__name__: each for each in (data_corrupted, data_read_only, data_full, clock, late, wrong_sites, hung)}
+SCENARIOS = {each.__name__: each for each in (data_corrupted, data_read_only, data_full, clock, late, wrong_sites, hung, slots_bad,
+                                                 gpu_lost)}

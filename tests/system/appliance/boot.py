@@ -46,9 +46,9 @@ sleep 60
 
 def measured_patience(disk, kernel, folder):
     """How much slower the emulated machine is than this one, right now."""
-    program = os.environ.get("PLEINAIR_CPU_WORK")
+    program = os.environ.get("PLEINAIR_TEST_CPU_WORK")
     if not program:
-        raise Failed("PLEINAIR_CPU_WORK is to name tests/system/programs' cpu_work")
+        raise Failed("PLEINAIR_TEST_CPU_WORK is to name tests/system/programs' cpu_work")
     script = os.path.join(folder, "work.sh")
     with open(script, "w") as file:
         file.write(WORK)

@@ -3,8 +3,8 @@
 
     image_test.py FOLDER_OF_IMAGES RESULTS prepare       makes what the others need, from `./dev image`'s root
     image_test.py FOLDER_OF_IMAGES RESULTS SCENARIO      boot, crashes, install, updates, copies, data_corrupted, data_read_only,
-                                                 data_full, clock, late, wrong_sites, hung, soak, soak_in_chroot, or
-                                                 power_cut:SEED
+                                                 data_full, clock, late, wrong_sites, hung, slots_bad, gpu_lost, soak,
+                                                 soak_in_chroot, or power_cut:SEED
 
 Exit status: 0; 1; 77, a skip: there is no image (./dev package; ./dev image), or a program is missing.
 """
@@ -36,6 +36,8 @@ VERSION_WORDS = "pleinair.trial_minutes={}"
 # A real-time thread that the emulation slows down has used up its time, and is killed for it (LimitRTTIME=).
 EMULATED = "[Service]\nLimitRTPRIO=0\n"
 HANGING_SERVICE = "[Service]\nType=simple\nWatchdogSec=0\nExecStart=\nExecStart=/usr/bin/sleep infinity\n"
+# The program that a preloaded library tells of a lost GPU.
+LOSING_SERVICE = EMULATED + "Environment=LD_PRELOAD=/usr/lib/pleinair/lost_gpu.so\n"
 CRASHING_SERVICE = "[Service]\nExecStart=\nExecStart=/usr/bin/false\n"
 CONFIRMED = r"slot {} is confirmed"
 
@@ -55,10 +57,11 @@ class Images:
         programs = ("qemu-system-x86_64", "qemu-img", "rauc", "mcopy", "genimage")
         return next((each + " is not installed" for each in programs if not shutil.which(each)), None)
 
-    def _make(self, version, minutes, kiosk_settings=EMULATED, keys=None, control=None):
-        """`kiosk_settings`: a drop-in of the service that paints. `control`: a unit of the machine's start."""
+    def _make(self, version, minutes, kiosk_settings=EMULATED, keys=None, control=None, libraries=()):
+        """`kiosk_settings`: a drop-in of the service that paints. `control`: a unit of the machine's start. `libraries`: files that
+        go beside the program's own."""
         with self._locked(version):
-            return self._made_anew_or_kept(version, minutes, kiosk_settings, keys, control)
+            return self._made_anew_or_kept(version, minutes, kiosk_settings, keys, control, libraries)
 
     @contextlib.contextmanager
     def _locked(self, name):
@@ -68,10 +71,11 @@ class Images:
             fcntl.flock(file, fcntl.LOCK_EX)
             yield
 
-    def _made_anew_or_kept(self, version, minutes, kiosk_settings, keys, control):
+    def _made_anew_or_kept(self, version, minutes, kiosk_settings, keys, control, libraries):
         output = os.path.join(self._made, version)
         done = os.path.join(output, "done")
         stamp = f"{os.path.getmtime(self._tar)} {VERSION_WORDS.format(minutes)} {kiosk_settings} {control} {kiosk.COMMANDS}"
+        stamp = " ".join([stamp, *(digest(each) for each in libraries)])
         if os.path.exists(done) and open(done).read() == stamp:
             return output
         shutil.rmtree(output, ignore_errors=True)
@@ -83,6 +87,10 @@ class Images:
         os.makedirs(place)
         with open(os.path.join(place, "scenario.conf"), "w") as file:
             file.write(kiosk_settings)
+        for each in libraries:
+            library = os.path.join(overlay, "usr", "lib", "pleinair", os.path.basename(each))
+            os.makedirs(os.path.dirname(library), exist_ok=True)
+            shutil.copy(each, library)
         units = os.path.dirname(place)
         for name, content, target in (("control", control, "sysinit"), ("commands", kiosk.COMMANDS, "pleinair-display")):
             if not content:
@@ -115,12 +123,21 @@ class Images:
         """Version 0.5, whose service ends at once whenever it is started."""
         return self._disk("0.5", CRASHING_SERVICE)
 
-    def _disk(self, version, kiosk_settings=EMULATED, control=None):
+    def losing_disk(self):
+        """Version 0.7, whose GPU is lost for as long as there is /run/lost-gpu (programs/lost_gpu.cpp)."""
+        library = os.environ.get("PLEINAIR_TEST_LOST_GPU")
+        if not library:
+            raise Failed("PLEINAIR_TEST_LOST_GPU is to name tests/system/programs' lost_gpu")
+        named = os.path.join(self._made, "lost_gpu.so")
+        shutil.copy(library, named)
+        return self._disk("0.7", LOSING_SERVICE, libraries=(named,))
+
+    def _disk(self, version, kiosk_settings=EMULATED, control=None, libraries=()):
         with self._locked("disks"):
             certificate = os.path.join(self._made, "certificate")  # without a key there is no bundle, which takes longest
             os.makedirs(certificate, exist_ok=True)
             shutil.copy(os.path.join(self._keys, "update.crt"), certificate)
-            folder = self._make(version, 40, kiosk_settings, certificate, control)
+            folder = self._make(version, 40, kiosk_settings, certificate, control, libraries)
             disk = os.path.join(folder, f"pleinair-{ARCH}.img")
             if boot_block(disk, folder).get("WORDS") != WORDS:
                 kiosk.check.add_words(disk, folder, WORDS)

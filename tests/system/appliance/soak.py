@@ -66,7 +66,7 @@ def soak_chroot(tar, folder):
     for place in ("dev", "proc", "tmp"):
         os.makedirs(os.path.join(root, place), exist_ok=True)
     enter = (f"mount --rbind /dev '{root}/dev' && mount -t proc proc '{root}/proc' && mount -t tmpfs tmpfs '{root}/tmp' && "
-             f"exec chroot '{root}' /usr/bin/env HOME=/tmp LIBGL_ALWAYS_SOFTWARE=1 /usr/bin/pleinair run --camera synthetic "
+             f"exec chroot '{root}' /usr/bin/env -i HOME=/tmp LIBGL_ALWAYS_SOFTWARE=1 /usr/bin/pleinair run --camera synthetic "
              f"--output headless --size 160x120 --set camera.rate=60 --frames {CHROOT_FRAMES}")
     log = os.path.join(folder, "log")
     began = time.monotonic()

@@ -282,6 +282,17 @@ class Slots(unittest.TestCase):
         starts = self.starts(13)
         self.assertEqual(starts, "aaabbbaaabbba")
 
+    def test_a_machine_of_which_no_slot_paints_is_troubled_until_one_does(self):
+        self.starts(6)
+        self.assertIn(self.values("TROUBLED"), [("",), (None,)])
+        self.starts(1)
+        self.assertEqual(self.values("TROUBLED"), ("1",))
+        self.starts(1)
+        self.assertEqual(self.values("TROUBLED"), ("1",), "it stays so from start to start")
+        self.machine.paint()
+        self.assertEqual(self.starts(2), "aa")
+        self.assertEqual(self.values("TROUBLED"), ("",))
+
     def test_a_machine_of_which_no_slot_is_good_starts_one(self):
         self.machine.disk.set(a_OK=0, b_OK=0)
         self.assertEqual(self.machine.switch_on(), "a")
