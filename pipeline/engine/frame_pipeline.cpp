@@ -20,7 +20,7 @@
 namespace pleinair {
 namespace {
 
-gpu::ShaderLibrary makeLibrary(const PainterOptions& options) {
+gpu::ShaderLibrary makeLibrary(const PainterOptions& options, const gpu::ContextInfo& context) {
   gpu::ShaderLibrary library(options.shaderDirectory);
   library.add(gpu::presentShaders());
   library.add(gpu::sceneShaders());
@@ -28,6 +28,7 @@ gpu::ShaderLibrary makeLibrary(const PainterOptions& options) {
   library.add(gpu::overlayShaders());
   styles::addStyleShaders(library);
   library.setCancellation(options.isCancelled);
+  library.setPassForm(options.passForm.value_or(gpu::fasterPassForm(context)));
   return library;
 }
 
@@ -80,7 +81,7 @@ FramePipeline::FramePipeline(const PainterOptions& options, PainterGl gl)
       scene_(options.scene),
       tracksTags_(options.tracksTags),
       readsSurfaces_(options.readsSurfaces),
-      library_(makeLibrary(options)),
+      library_(makeLibrary(options, gl_.info)),
       timer_(options.passTiming, &gl_.info),
       frames_(library_, gl_.info, testHook_),
       luma_(library_, gl_.info, testHook_),

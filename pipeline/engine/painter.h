@@ -86,6 +86,8 @@ struct PainterOptions {
   /// An EGLDisplay of a window system, which PainterContext::kOwn makes its context on where that
   /// is no worse, to share textures with a window (gpu::EglContext); null: none.
   void* windows = nullptr;
+  /// How full-screen passes run; unset: as is faster on the GPU.
+  std::optional<gpu::PassForm> passForm = std::nullopt;
   /// Replaces answers of the driver, in tests.
   gpu::GpuTestHook testHook = {};
 };

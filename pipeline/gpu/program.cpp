@@ -73,6 +73,7 @@ struct Program::Linked {
   std::string label;
   std::string pass;
   std::vector<Input> inputs;
+  PassTargets targets;  // of the compute form of a full-screen pass
   glm::ivec2 groupSize{1};
   VertexArrayHandle emptyVertexArray;
 
@@ -80,7 +81,7 @@ struct Program::Linked {
 };
 
 Program::Program(ProgramHandle handle, ProgramKind kind, std::string label,
-                 std::vector<ShaderInput> inputs, TimerSlot timer)
+                 std::vector<ShaderInput> inputs, TimerSlot timer, PassTargets targets)
     : timer_(std::move(timer)) {
   auto linked = std::make_shared<Linked>();
   linked->handle = std::move(handle);
@@ -88,6 +89,7 @@ Program::Program(ProgramHandle handle, ProgramKind kind, std::string label,
   linked->label = std::move(label);
   for (ShaderInput& input : inputs) linked->inputs.push_back({.declared = std::move(input)});
   linked->findLocations();
+  linked->targets = std::move(targets);
   if (kind == ProgramKind::kCompute) linked->groupSize = groupSizeOf(linked->handle);
   linked->emptyVertexArray = VertexArrayHandle::make();
   linked_ = std::move(linked);
@@ -255,11 +257,19 @@ Program& Program::image(std::string_view name, const Texture& texture, ImageAcce
 }
 
 void Program::drawFullscreen(const RenderTarget& target) {
+  if (!linked_->targets.empty()) {
+    target.bindAsImages(linked_->targets);
+    dispatch({target.size().width, target.size().height},
+             GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
+                 GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    return;
+  }
   target.beginDiscarding();
   drawTriangle();
 }
 
 void Program::drawArea(const RenderTarget& target, glm::ivec2 origin, hal::FrameSize size) {
+  assert(linked_->targets.empty());
   assert(origin.x >= 0 && origin.y >= 0 && origin.x + size.width <= target.size().width &&
          origin.y + size.height <= target.size().height);
   target.beginKeeping();

@@ -15,6 +15,7 @@
 
 #include "pipeline/gpu/buffer.h"
 #include "pipeline/gpu/handle.h"
+#include "pipeline/gpu/pass_form.h"
 #include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/gpu/shader_interface.h"
@@ -53,9 +54,10 @@ class Program {
   using TimerSlot = std::shared_ptr<PassTimer*>;
 
   Program() = default;
-  /// `inputs` are all that its shaders' texts declare.
+  /// `inputs` are all that its shaders' texts declare. `targets`: of a full-screen pass in its
+  /// compute form (PassForm), the formats of what it writes to.
   Program(ProgramHandle handle, ProgramKind kind, std::string label,
-          std::vector<ShaderInput> inputs, TimerSlot timer);
+          std::vector<ShaderInput> inputs, TimerSlot timer, PassTargets targets = {});
 
   /// The fragment or compute shader's name, with the defines that it was made with.
   const std::string& label() const;
@@ -93,9 +95,10 @@ class Program {
   Program& image(std::string_view name, const Texture& texture, ImageAccess access);
 
   /// Runs a full-screen pass over `target`; every pixel is written, no blending, no depth. What was
-  /// in the target is lost, its depth too.
+  /// in the target is lost, its depth too. Precondition: the target has the formats that a pass in
+  /// its compute form was made for.
   void drawFullscreen(const RenderTarget& target);
-  /// Runs the pass over a part of `target` only and keeps the rest.
+  /// Runs the pass over a part of `target` only and keeps the rest. Not in its compute form.
   void drawArea(const RenderTarget& target, glm::ivec2 origin, hal::FrameSize size);
   /// Runs a compute program over `items` invocations, rounded up to whole groups (at most
   /// kMaxGroups along each axis), then makes its writes visible to what `barriers`

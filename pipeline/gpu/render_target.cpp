@@ -11,8 +11,6 @@
 namespace pleinair::gpu {
 namespace {
 
-constexpr int kMaxColourTargets = 4;  // docs/gpu.md, rule 3
-
 GLenum attachment(int i) {
   return GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i);
 }
@@ -33,9 +31,9 @@ RenderTarget::RenderTarget(std::initializer_list<const Texture*> colours, const 
     : handle_(FramebufferHandle::make()),
       colourCount_(static_cast<int>(colours.size())),
       hasDepth_(depth != nullptr) {
-  assert(colourCount_ >= 1 && colourCount_ <= kMaxColourTargets);
+  assert(colourCount_ >= 1 && colourCount_ <= static_cast<int>(kMaxColours));
   glBindFramebuffer(GL_FRAMEBUFFER, handle_.get());
-  std::array<GLenum, kMaxColourTargets> drawBuffers{};
+  std::array<GLenum, kMaxColours> drawBuffers{};
   int i = 0;
   for (const Texture* colour : colours) {
     assert(isRenderable(colour->format()) && colour->format() != TextureFormat::kDepth24);
@@ -43,6 +41,7 @@ RenderTarget::RenderTarget(std::initializer_list<const Texture*> colours, const 
     size_ = colour->size();
     glFramebufferTexture2D(GL_FRAMEBUFFER, attachment(i), GL_TEXTURE_2D, colour->name(), 0);
     drawBuffers[static_cast<std::size_t>(i)] = attachment(i);
+    colours_[static_cast<std::size_t>(i)] = {.texture = colour->name(), .format = colour->format()};
     ++i;
   }
   if (depth != nullptr) {
@@ -58,7 +57,7 @@ RenderTarget::RenderTarget(std::initializer_list<const Texture*> colours, const 
 
 void RenderTarget::beginDiscarding() const {
   beginKeeping();
-  std::array<GLenum, kMaxColourTargets + 1> attachments{};
+  std::array<GLenum, kMaxColours + 1> attachments{};
   int count = 0;
   for (; count < colourCount_; ++count) {
     attachments[static_cast<std::size_t>(count)] = attachment(count);
@@ -70,6 +69,15 @@ void RenderTarget::beginDiscarding() const {
 void RenderTarget::beginKeeping() const {
   glBindFramebuffer(GL_FRAMEBUFFER, handle_.get());
   glViewport(0, 0, size_.width, size_.height);
+}
+
+void RenderTarget::bindAsImages(std::span<const TextureFormat> formats) const {
+  assert(formats.size() == static_cast<std::size_t>(colourCount_));
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    assert(colours_[i].format == formats[i]);
+    glBindImageTexture(static_cast<GLuint>(i), colours_[i].texture, 0, GL_FALSE, 0, GL_WRITE_ONLY,
+                       glFormat(formats[i]).internal);
+  }
 }
 
 void RenderTarget::clearColour(int target, glm::vec4 colour) const {

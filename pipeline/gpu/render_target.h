@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <initializer_list>
+#include <span>
 
 #include <glm/vec4.hpp>
 
@@ -26,6 +29,9 @@ class RenderTarget {
   void beginDiscarding() const;
   /// Binds it and keeps what is there: for drawing over it.
   void beginKeeping() const;
+  /// Binds its colour textures as images, by their places, for a compute shader that writes to
+  /// them. Precondition: `formats` are theirs.
+  void bindAsImages(std::span<const TextureFormat> formats) const;
   /// Clears one bound colour attachment (float or normalised formats).
   void clearColour(int attachment, glm::vec4 colour) const;
   /// Clears one bound colour attachment of an unsigned integer format.
@@ -35,8 +41,15 @@ class RenderTarget {
   void discardDepth() const;
 
  private:
+  static constexpr std::size_t kMaxColours = 4;  // docs/gpu.md, rule 3
+  struct Colour {
+    GLuint texture = 0;
+    TextureFormat format = TextureFormat::kRgba8;
+  };
+
   FramebufferHandle handle_;
   hal::FrameSize size_;
+  std::array<Colour, kMaxColours> colours_{};
   int colourCount_ = 0;
   bool hasDepth_ = false;
 };

@@ -221,7 +221,8 @@ ShaderHandle ShaderLibrary::compile(GLenum stage, std::string_view name,
 }
 
 Program ShaderLibrary::link(ProgramKind kind, std::span<const ShaderHandle> shaders,
-                            std::string label, std::span<const Expansion* const> sources) const {
+                            std::string label, std::span<const Expansion* const> sources,
+                            const PassTargets& targets) const {
   throwIfCancelled();
   ProgramHandle program = ProgramHandle::make();
   for (const ShaderHandle& shader : shaders) glAttachShader(program.get(), shader.get());
@@ -239,7 +240,7 @@ Program ShaderLibrary::link(ProgramKind kind, std::span<const ShaderHandle> shad
   std::vector<ShaderInput> inputs;
   for (const Expansion* source : sources) addInputs(source->text, inputs);
   ++compiled_;
-  return {std::move(program), kind, std::move(label), std::move(inputs), timer_};
+  return {std::move(program), kind, std::move(label), std::move(inputs), timer_, targets};
 }
 
 void ShaderLibrary::throwIfCancelled() const {
@@ -256,9 +257,25 @@ Program ShaderLibrary::made(const std::string& key, const std::function<Program(
   return known != programs_.end() ? known->second : programs_.emplace(key, make()).first->second;
 }
 
-Program ShaderLibrary::fragmentPass(std::string_view fragmentName,
-                                    const ShaderDefines& defines) const {
-  return draw(kFullscreenVertex, fragmentName, defines);
+Program ShaderLibrary::fragmentPass(std::string_view fragmentName, const ShaderDefines& defines,
+                                    const PassTargets& targets) const {
+  return passForm_ == PassForm::kCompute && !targets.empty()
+             ? computePass(fragmentName, defines, targets)
+             : draw(kFullscreenVertex, fragmentName, defines);
+}
+
+Program ShaderLibrary::computePass(std::string_view fragmentName, const ShaderDefines& defines,
+                                   const PassTargets& targets) const {
+  std::string key = keyOf({fragmentName}, defines) + " as compute for";
+  for (const TextureFormat target : targets) key += fmt::format(" {}", static_cast<int>(target));
+  return made(key, [&] {
+    Expansion source = expand(fragmentName, defines);
+    source.text = computeFormOf(source.text, targets);
+    source.lines.insert(source.lines.begin() + 1, kComputeFormLines, {"compute form of a pass", 1});
+    const std::array<ShaderHandle, 1> shaders{compile(GL_COMPUTE_SHADER, fragmentName, source)};
+    return link(ProgramKind::kCompute, shaders, labelOf(fragmentName, defines), std::array{&source},
+                targets);
+  });
 }
 
 Program ShaderLibrary::compute(std::string_view computeName, const ShaderDefines& defines) const {

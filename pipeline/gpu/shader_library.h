@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pipeline/gpu/embedded_shader.h"
+#include "pipeline/gpu/pass_form.h"
 #include "pipeline/gpu/program.h"
 
 namespace pleinair::gpu {
@@ -56,8 +57,10 @@ class ShaderLibrary {
   /// Adds a module's shaders: `library.add(gpuShaders())`. The texts outlive the library.
   void add(std::span<const EmbeddedShader> shaders);
 
-  /// A full-screen pass: shaders/fullscreen.vert and this fragment shader.
-  Program fragmentPass(std::string_view fragmentName, const ShaderDefines& defines = {}) const;
+  /// A full-screen pass: shaders/fullscreen.vert and this fragment shader. Where `targets`, the
+  /// formats of what it is drawn into, are given, it may have its compute form (setPassForm).
+  Program fragmentPass(std::string_view fragmentName, const ShaderDefines& defines = {},
+                       const PassTargets& targets = {}) const;
   Program compute(std::string_view computeName, const ShaderDefines& defines = {}) const;
   Program draw(std::string_view vertexName, std::string_view fragmentName,
                const ShaderDefines& defines = {}) const;
@@ -67,6 +70,10 @@ class ShaderLibrary {
   /// From now on, each run of the programs of this library, made before or after, is timed by
   /// `timer`, which outlives that; null: by none, as at first. On the thread of the programs.
   void setTimer(PassTimer* timer) { *timer_ = timer; }
+
+  /// The form of full-screen passes that are made from now on. Precondition of kCompute:
+  /// hasComputeForm().
+  void setPassForm(PassForm form) { passForm_ = form; }
 
   /// From now on, `isCancelled` is asked before each program is compiled, which throws a
   /// hal::Failure (kCancelled) where it says so; null: nothing is asked, as at first.
@@ -90,14 +97,18 @@ class ShaderLibrary {
   };
   Expansion expand(std::string_view name, const ShaderDefines& defines) const;
   void expandInto(std::string_view name, std::string_view includer, Expansion& output) const;
+  Program computePass(std::string_view fragmentName, const ShaderDefines& defines,
+                      const PassTargets& targets) const;
   Program made(const std::string& key, const std::function<Program()>& make) const;
   ShaderHandle compile(GLenum stage, std::string_view name, const Expansion& source) const;
+  /// `targets`: of a pass in its compute form.
   Program link(ProgramKind kind, std::span<const ShaderHandle> shaders, std::string label,
-               std::span<const Expansion* const> sources) const;
+               std::span<const Expansion* const> sources, const PassTargets& targets = {}) const;
 
   std::filesystem::path overrideDirectory_;
   std::vector<EmbeddedShader> shaders_;
   std::function<bool()> isCancelled_;
+  PassForm passForm_ = PassForm::kFragment;
   Program::TimerSlot timer_ = std::make_shared<PassTimer*>(nullptr);
   mutable std::map<std::string, Program> programs_;  // by keyOf()
   mutable std::size_t compiled_ = 0;

@@ -74,8 +74,10 @@ struct MotionLayers::State {
         size(cellsOf(full)),
         compare(library.compute(kShaders + "motion_layers.comp")),
         compareAtRest(library.compute(kShaders + "motion_layers.comp", {{"AT_REST"}})),
+        markNear(library.compute(kShaders + "motion_layers_near_mark.comp")),
         listNear(library.compute(kShaders + "motion_layers_near_list.comp")),
         compareNear(library.compute(kShaders + "motion_layers_near.comp")),
+        markBusy(library.compute(kShaders + "motion_layers_busy_mark.comp")),
         listBusy(library.compute(kShaders + "motion_layers_busy_list.comp")),
         settle(library.compute(kShaders + "motion_layers_settle.comp")),
         settleAtRest(library.compute(kShaders + "motion_layers_settle.comp", {{"AT_REST"}})),
@@ -119,8 +121,10 @@ struct MotionLayers::State {
   hal::FrameSize size;
   gpu::Program compare;
   gpu::Program compareAtRest;
+  gpu::Program markNear;
   gpu::Program listNear;
   gpu::Program compareNear;
+  gpu::Program markBusy;
   gpu::Program listBusy;
   gpu::Program settle;
   gpu::Program settleAtRest;
@@ -291,13 +295,17 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
   s.beginToCompare(isAtRest ? s.compareAtRest : s.compare, frame, motion, step)
       .image("pictureNow", s.pictures.at(s.now), ImageAccess::kWrite)
       .dispatch(s.cells(), kStored);
-  s.bindBusy(s.listNear.use()).texture("moverMotion", s.moverMotion).dispatch({1, 1}, kListed);
+  s.bindBusy(s.markNear.use())
+      .texture("moverMotion", s.moverMotion)
+      .dispatch(s.blocks(), kStored);
+  s.bindBusy(s.listNear.use()).dispatch({1, 1}, kListed);
   s.beginToCompare(s.compareNear, frame, motion, step)
       .texture("moverMotion", s.moverMotion)
       .texture("moverShares", s.shares.at(before))
       .set("motionScale", motionScale);
   s.dispatchBusy(s.compareNear, kNearCommand);
-  s.bindBusy(s.listBusy.use()).storage("Blocks", s.parts).dispatch({1, 1}, kListed);
+  s.bindBusy(s.markBusy.use()).storage("Blocks", s.parts).dispatch(s.blocks(), kStored);
+  s.bindBusy(s.listBusy.use()).dispatch({1, 1}, kListed);
   s.findGround.use()
       .storage("Tally", s.tally)
       .set("turn", s.turn)

@@ -49,7 +49,7 @@ struct TensorField::State {
 
   State(const gpu::ShaderLibrary& library, hal::FrameSize fullSize)
       : full(fullSize),
-        gradient(library.fragmentPass(kShaders + "gradient.frag")),
+        gradient(library.fragmentPass(kShaders + "gradient.frag", {}, {gpu::TextureFormat::kRg16f})),
         histogram(library.compute(kShaders + "edge_histogram.comp")),
         threshold(library.compute(kShaders + "edge_threshold.comp")),
         regions(library.compute(kShaders + "tensor_regions.comp")),

@@ -1,6 +1,6 @@
 // Purpose: the blocks of cells in which anything differs from the background or moves, which the
-//          costly passes of marks::MotionLayers are dispatched for (motion_layers_near_list.comp,
-//          motion_layers_busy_list.comp); all others remain background.
+//          costly passes of marks::MotionLayers are dispatched for (motion_layers_near_mark.comp,
+//          motion_layers_busy_mark.comp); all others remain background.
 // Inputs:  grid: blocks; layer_blocks.glsl's.
 // Outputs: functions. The buffer: commands for glDispatchComputeIndirect (x, y, z), then three words
 //          a block: its flags, and two lists of blocks.

@@ -1,12 +1,9 @@
-// Purpose: lists the blocks that have, or are beside, one with other content: all others remain
-//          background.
+// Purpose: lists the blocks that motion_layers_busy_mark.comp has marked.
 // Inputs:  busy_blocks.glsl's flags.
-// Outputs: busy_blocks.glsl's second list, and all commands that follow from it; blocks
-//          (mover_parts.glsl): no part. One group of invocations for all blocks.
+// Outputs: busy_blocks.glsl's second list, and all commands that follow from it. One group of
+//          invocations for all blocks.
 // Precision: integers.
 #include "pipeline/marks/shaders/block_list.glsl"
-#include "pipeline/marks/shaders/mover_parts.glsl"
-layout(std430, binding = 0) writeonly buffer Blocks { MoverBlock blocks[]; };
 
 void command(int at, ivec2 groups) {
   busyWords[at] = uint(groups.x);
@@ -14,27 +11,8 @@ void command(int at, ivec2 groups) {
   busyWords[at + 2] = 1u;
 }
 
-// The flags of a block and of those beside it.
-uint flagsAround(ivec2 block) {
-  uint flags = 0u;
-  ivec2 low = max(block - 1, ivec2(0));
-  ivec2 high = min(block + 1, grid - 1);
-  for (int y = low.y; y <= high.y; ++y) {
-    for (int x = low.x; x <= high.x; ++x) flags |= busyWords[flagsAt(ivec2(x, y))];
-  }
-  return flags;
-}
-
 void main() {
-  ivec2 mine = stretch();
-  uint own = 0u;
-  for (int i = mine.x; i < mine.y; ++i) {
-    blocks[i].parent = kNoPart;
-    if ((flagsAround(blockOf(uint(i))) & kIsBusy) == 0u) continue;
-    busyWords[kBusyWords + i] |= kIsOfSecond;
-    ++own;
-  }
-  uint count = list(mine, own, kIsOfSecond, busyAt(0));
+  uint count = list(kIsOfSecond, busyAt(0));
   if (gl_LocalInvocationID.x != 0u) return;
   ivec2 perBlock = (grid + 7) / 8;  // groups of those that take a block each
   bool isAny = count != 0u;

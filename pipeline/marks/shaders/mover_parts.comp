@@ -12,7 +12,7 @@
 #include "pipeline/marks/shaders/layer_cells.glsl"
 #include "pipeline/marks/shaders/mover_motion.glsl"
 #include "pipeline/marks/shaders/mover_parts.glsl"
-layout(local_size_x = 64) in;
+layout(local_size_x = 128) in;
 layout(rgba8, binding = 0) writeonly uniform highp image2D numbers;
 layout(std430, binding = 0) coherent buffer Blocks { MoverBlock blocks[]; };
 uniform ivec2 grid;
@@ -26,7 +26,7 @@ const float kLeftOver = 0.15;
 const float kLeastAlike = 0.2;  // of a mover's cells, of those of another one that moves alike
 
 shared uint partCount;
-shared uint firsts[64];  // first blocks in an invocation's stretch of them
+shared uint firsts[128];  // first blocks in an invocation's stretch of them
 shared uint parts[kMostParts];  // their first blocks
 shared uint majors[kMostParts];
 shared uint fills[kMostParts];

@@ -139,8 +139,9 @@ struct Painterly::State {
   explicit State(const gpu::ShaderLibrary& shaders)
       : library(shaders),
         reduced(library),
-        ground(library.fragmentPass(kShaders + "ground.frag")),
-        relief(library.fragmentPass(kShaders + "relief.frag")),
+        ground(library.fragmentPass(kShaders + "ground.frag", {},
+                                    {TextureFormat::kRgba8, TextureFormat::kRgba8})),
+        relief(library.fragmentPass(kShaders + "relief.frag", {}, {TextureFormat::kRgba8})),
         views(library),
         hiding(library),
         borders(library),

@@ -30,8 +30,12 @@ ReducedImages::Surfaces::Surfaces(hal::FrameSize pictureSize)
     : size(pictureSize), whole(size, gpu::TextureFormat::kRgba8) {}
 
 ReducedImages::ReducedImages(const gpu::ShaderLibrary& library)
-    : halve_(library.fragmentPass(kShaders + "halve.frag")),
-      part_(library.fragmentPass(kShaders + "part.frag")),
+    : halve_(library.fragmentPass(kShaders + "halve.frag", {}, {gpu::TextureFormat::kRgba8})),
+      halveApart_(
+          library.fragmentPass(kShaders + "halve.frag", {}, {gpu::TextureFormat::kRgba16f})),
+      part_(library.fragmentPass(kShaders + "part.frag", {},
+                                 {gpu::TextureFormat::kRgba16f, gpu::TextureFormat::kRgba16f,
+                                  gpu::TextureFormat::kRgba16f})),
       noIds_(gpu::TextureFormat::kR32ui, {1, 1}) {}
 
 void ReducedImages::update(const scene::ArFrame& frame, const marks::MotionLayers* layers) {
@@ -47,7 +51,7 @@ void ReducedImages::update(const scene::ArFrame& frame, const marks::MotionLayer
       .texture("picture", *frame.colour)
       .set("size", glm::vec2(half.width, half.height))
       .drawFullscreen(surfaces.whole.targets[0]);
-  halve(surfaces.whole, 0);
+  halve(halve_, surfaces.whole);
   if (!isApart_) return;
   if (!surfaces.apart) surfaces.apart.emplace(frame.size());
   part_.use()
@@ -57,15 +61,15 @@ void ReducedImages::update(const scene::ArFrame& frame, const marks::MotionLayer
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .drawFullscreen(surfaces.apart->first);
-  halve(surfaces.apart->background, 0);
-  if (frame.hasObjects) halve(surfaces.apart->models, 0);
-  if (hasMovers_) halve(surfaces.apart->movers, 0);
+  halve(halveApart_, surfaces.apart->background);
+  if (frame.hasObjects) halve(halveApart_, surfaces.apart->models);
+  if (hasMovers_) halve(halveApart_, surfaces.apart->movers);
 }
 
-void ReducedImages::halve(const Pyramid& pyramid, std::size_t from) {
-  for (std::size_t i = from + 1; i < kHalvings; ++i) {
+void ReducedImages::halve(gpu::Program& halving, const Pyramid& pyramid) {
+  for (std::size_t i = 1; i < kHalvings; ++i) {
     const hal::FrameSize size = pyramid.levels[i].size();
-    halve_.use()
+    halving.use()
         .texture("picture", pyramid.levels[i - 1])
         .set("size", glm::vec2(size.width, size.height))
         .drawFullscreen(pyramid.targets[i]);

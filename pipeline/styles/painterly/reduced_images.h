@@ -62,12 +62,13 @@ class ReducedImages {
     std::optional<Apart> apart;
   };
 
-  void halve(const Pyramid& pyramid, std::size_t from);
+  static void halve(gpu::Program& halving, const Pyramid& pyramid);
   /// The level whose texels are at most `px` wide; nothing: the picture's own.
   static std::optional<std::size_t> levelOf(double px);
   float texelPx(std::size_t halvings) const;
 
-  gpu::Program halve_;
+  gpu::Program halve_;       // of RGBA8
+  gpu::Program halveApart_;  // of RGBA16F
   gpu::Program part_;
   gpu::PerSize<Surfaces> surfaces_;
   const Surfaces* now_ = nullptr;

@@ -3,7 +3,8 @@
 namespace pleinair::styles {
 
 StrokeBorders::StrokeBorders(const gpu::ShaderLibrary& library)
-    : program_(library.fragmentPass("pipeline/styles/strokes/shaders/borders.frag")),
+    : program_(library.fragmentPass("pipeline/styles/strokes/shaders/borders.frag", {},
+                                    {gpu::TextureFormat::kR32ui})),
       noForms_(gpu::TextureFormat::kR32ui, {1, 1}) {}
 
 void StrokeBorders::draw(const scene::ArFrame& frame, const marks::MotionLayers* movers,

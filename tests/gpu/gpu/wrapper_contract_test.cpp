@@ -53,7 +53,7 @@ TEST_F(WrapperDeathTest, TargetsHaveFourRenderableColoursOfOneSizeAtMost) {
   const Texture floats(TextureFormat::kRgba32f, {4, 4});
   const Texture depth(TextureFormat::kDepth24, {4, 4});
   EXPECT_TRUE(RenderTarget({&a, &b}, &depth));
-  EXPECT_DEATH(RenderTarget({&a, &b, &a, &b, &a}), "kMaxColourTargets");
+  EXPECT_DEATH(RenderTarget({&a, &b, &a, &b, &a}), "kMaxColours");
   EXPECT_DEATH(RenderTarget({&a, &other}), "colour->size\\(\\) == size_");
   EXPECT_DEATH(RenderTarget({&floats}), "isRenderable");
   EXPECT_DEATH(RenderTarget({&a}, &b), "kDepth24");

@@ -1,0 +1,126 @@
+#include "pipeline/gpu/pass_form.h"
+
+#include <cstddef>
+#include <cstring>
+#include <regex>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "hal/error.h"
+#include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/gl.h"
+
+namespace pleinair::gpu {
+namespace {
+
+/// GLSL's name of an image's format; empty for formats that are no images'.
+std::string_view imageFormatOf(TextureFormat format) {
+  switch (format) {
+    case TextureFormat::kR8:
+      return "r8";
+    case TextureFormat::kRg8:
+      return "rg8";
+    case TextureFormat::kRgba8:
+      return "rgba8";
+    case TextureFormat::kRgba16f:
+      return "rgba16f";
+    case TextureFormat::kRg16f:
+      return "rg16f";
+    case TextureFormat::kR32f:
+      return "r32f";
+    case TextureFormat::kRgba32f:
+      return "rgba32f";
+    case TextureFormat::kR32ui:
+      return "r32ui";
+    case TextureFormat::kRg32ui:
+      return "rg32ui";
+    case TextureFormat::kRgb8:
+    case TextureFormat::kSrgba8:
+    case TextureFormat::kDepth24:
+      return "";
+  }
+  return "";
+}
+
+bool isUnsigned(TextureFormat format) {
+  return format == TextureFormat::kR32ui || format == TextureFormat::kRg32ui;
+}
+
+/// An output as the four components that imageStore() takes.
+std::string fourOf(const std::string& type, const std::string& name) {
+  if (type == "float") return fmt::format("vec4({}, 0.0, 0.0, 1.0)", name);
+  if (type == "vec2") return fmt::format("vec4({}, 0.0, 1.0)", name);
+  if (type == "vec3") return fmt::format("vec4({}, 1.0)", name);
+  if (type == "uint") return fmt::format("uvec4({}, 0u, 0u, 1u)", name);
+  if (type == "uvec2") return fmt::format("uvec4({}, 0u, 1u)", name);
+  return name;
+}
+
+[[noreturn]] void refuse(const std::string& problem) {
+  throw hal::Failure({.kind = hal::ErrorKind::kInternal,
+                      .subject = "a full-screen pass as a compute shader",
+                      .problem = problem,
+                      .remedy = {}});
+}
+
+}  // namespace
+
+PassForm fasterPassForm(const ContextInfo& context) {
+  return context.renderer.starts_with("NVIDIA ") && hasComputeForm() ? PassForm::kCompute
+                                                                     : PassForm::kFragment;
+}
+
+bool hasComputeForm() {
+  const auto* extensions = reinterpret_cast<const char*>(glGetString(GL_EXTENSIONS));
+  return extensions != nullptr && std::strstr(extensions, "GL_NV_image_formats") != nullptr;
+}
+
+std::string computeFormOf(std::string_view fragment, std::span<const TextureFormat> targets) {
+  static const std::regex kOutput(
+      R"(^layout\(location = ([0-9])\) out (?:highp |mediump |lowp )?(\w+) (\w+);)");
+  static const std::regex kPlace(R"(\bgl_FragCoord\b)");
+  static const std::regex kMain(R"(\bvoid main\(\))");
+  std::string declared;
+  std::string stores;
+  std::size_t outputs = 0;
+  std::string body;
+  std::istringstream lines{std::string(fragment)};
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, kOutput)) {
+      const std::size_t location = std::stoul(match[1]);
+      if (location >= targets.size()) refuse("it writes to more targets than it was made for");
+      const std::string_view format = imageFormatOf(targets[location]);
+      if (format.empty()) refuse("a target is of a format that no image has");
+      const std::string type = match[2];
+      const std::string name = match[3];
+      declared +=
+          fmt::format("layout({}, binding = {}) writeonly uniform highp {} passTarget{}; ", format,
+                      location, isUnsigned(targets[location]) ? "uimage2D" : "image2D", location);
+      stores +=
+          fmt::format("  imageStore(passTarget{}, pixel, {});\n", location, fourOf(type, name));
+      line = type + " " + name + ";" + match.suffix().str();
+      ++outputs;
+    }
+    line = std::regex_replace(line, kPlace, "passPlace");
+    line = std::regex_replace(line, kMain, "void runPass()");
+    body += line + "\n";
+  }
+  if (outputs != targets.size()) refuse("it writes to fewer targets than it was made for");
+  // Behind the version, which must come first.
+  const std::size_t version = body.find('\n') + 1;
+  body.insert(version,
+              "#extension GL_NV_image_formats : require\n"
+              "layout(local_size_x = 8, local_size_y = 8) in; highp vec4 passPlace; " +
+                  declared + "\n");
+  return body +
+         "void main() {\n"
+         "  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);\n"
+         "  if (any(greaterThanEqual(pixel, imageSize(passTarget0)))) return;\n"
+         "  passPlace = vec4(vec2(pixel) + 0.5, 0.0, 1.0);\n"
+         "  runPass();\n" +
+         stores + "}\n";
+}
+
+}  // namespace pleinair::gpu
