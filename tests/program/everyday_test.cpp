@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <thread>
 #include <tuple>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -280,6 +282,20 @@ TEST_F(Everyday, ACrashUnderAMemoryLimitNamesTheLimit) {
     EXPECT_THAT(run.error, HasSubstr(fmt::format("{} MiB of address space (ulimit -v)", mebibytes)))
         << run.status;
   }
+}
+
+TEST_F(Everyday, TheRescuePictureIsWrittenToAFile) {
+  const auto written = [&](const std::string& name, const std::string& title) {
+    const ProgramRun run = runProgram({"rescue", "--output", path(name), "--title", title},
+                                      {.environment = {"STATE_DIRECTORY=" + path("none")}});
+    EXPECT_EQ(run.status, 0) << run.error;
+    hal::Image picture = hal::orThrow(hal::readPictureRgb(path(name)));
+    EXPECT_EQ(picture.size(), (hal::FrameSize{1280, 720}));
+    return std::vector<std::uint8_t>(picture.plane(0).begin(), picture.plane(0).end());
+  };
+  const auto one = written("one.png", "Soon");
+  EXPECT_EQ(one, written("again.png", "Soon"));
+  EXPECT_NE(one, written("other.png", "Not so soon"));
 }
 
 TEST_F(Everyday, SaysThatShadersAreCompiled) {
