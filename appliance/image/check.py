@@ -60,10 +60,15 @@ def partitions(disk):
 
 def add_words(disk, folder, words=WORDS):
     """To what GRUB gives the kernel, of whatever version; folder: for a file in between."""
+    set_in_block(disk, folder, WORDS=words)
+
+
+def set_in_block(disk, folder, **values):
+    """Sets variables of GRUB's environment block."""
     place = f"{disk}@@{partitions(disk)['esp']}"
     block = os.path.join(folder, "grubenv")
     subprocess.run(["mcopy", "-n", "-o", "-i", place, "::EFI/BOOT/grubenv", block], check=True)
-    subprocess.run([EDIT, block, "set", f"WORDS={words}"], check=True)
+    subprocess.run([EDIT, block, "set", *(f"{name}={value}" for name, value in values.items())], check=True)
     subprocess.run(["mcopy", "-o", "-i", place, block, "::EFI/BOOT/grubenv"], check=True)
 
 

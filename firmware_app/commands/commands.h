@@ -133,6 +133,7 @@ struct RescueOptions {
   ConfigurationRequest configuration;  ///< where the picture is shown; may be wrong
   std::string title = "The painting will be back soon";
   std::string detail;
+  std::filesystem::path file;         ///< one that the picture is written to; empty: it is shown
   std::optional<hal::Duration> time;  ///< default: until a signal
   /// Twice as long each time, as RescueBackOff, where a service manager gives a folder.
   bool backsOff = false;
@@ -141,7 +142,8 @@ struct RescueOptions {
 
 /// Shows a picture with a text on the displays of the configuration, drawn by the processor:
 /// `pleinair rescue`. A configuration that is wrong is shown as the text. Throws hal::Failure for a
-/// display that can be none. Returns 0, after the time or a signal.
+/// display that can be none. Returns 0, after the time or a signal. Where a file is named, the
+/// picture, of 1280x720 px, is written there instead, and errors are those of writing.
 int showRescue(const RescueOptions& options);
 
 struct LooksOptions {

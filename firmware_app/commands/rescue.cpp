@@ -21,7 +21,6 @@
 #include "hal/clock.h"
 #include "hal/console/virtual_terminal.h"
 #include "hal/error.h"
-#include "hal/media/picture_paths.h"
 #include "hal/outputs/display/display_output.h"
 #include "hal/outputs/registry.h"
 #include "pipeline/present/waiting_picture.h"
@@ -33,13 +32,11 @@ constexpr hal::Duration kStepInterval = std::chrono::milliseconds(20);
 constexpr const char* kDisplay = "display";
 constexpr const char* kFit = "fit";
 
-/// Of a picture that is written to a file.
 constexpr hal::FrameSize kFileSize{1280, 720};
 
-/// Where the picture is shown or written, and why there may be no painting.
+/// Where the picture is shown, and why there may be no painting.
 struct RescueJob {
-  std::vector<std::string> targets;  ///< screens
-  std::vector<std::string> files;
+  std::vector<std::string> targets;
   hal::OutputOptionsByKind options;
   std::string problem;  ///< of the configuration; empty: none
 };
@@ -52,16 +49,14 @@ RescueJob rescueJobOf(const ConfigurationRequest& request) {
     job.options = output.options;
     for (const std::filesystem::path& target : output.targets) {
       const auto kind = hal::outputKindOf(target.string());
-      if (!kind) continue;
-      if ((*kind)->traits.showsWaiting) job.targets.push_back(target.string());
-      if (hal::isPictureName(target)) job.files.push_back(target.string());
+      if (kind && (*kind)->traits.showsWaiting) job.targets.push_back(target.string());
     }
   } catch (const config::ConfigError& error) {
     job.problem = error.what();
   } catch (const hal::Failure& error) {
     job.problem = error.what();
   }
-  if (job.targets.empty() && job.files.empty()) job.targets.emplace_back(kDisplay);
+  if (job.targets.empty()) job.targets.emplace_back(kDisplay);
   // The picture has no shape of its own: it fills the screen.
   for (const hal::OutputKind& kind : hal::outputKinds()) {
     const bool hasFit =
@@ -76,8 +71,8 @@ std::optional<hal::Image> lastPainting() {
   return kept ? *std::move(kept) : std::nullopt;
 }
 
-/// Writes it once.
-void writePicture(const std::string& file, const present::WaitingText& text,
+/// Writes the picture, RGB8 of kFileSize, to a file.
+void writePicture(const std::filesystem::path& file, const present::WaitingText& text,
                   const std::optional<hal::Image>& painting) {
   const hal::Image picture =
       present::waitingPicture(kFileSize, painting ? painting->view() : hal::ImageView(), text);
@@ -120,10 +115,12 @@ int showRescue(const RescueOptions& options) {
   if (options.isProvisioned) request.siteFile = keptSiteFile(stateFolder());
   const RescueJob job = rescueJobOf(request);
   if (!job.problem.empty()) spdlog::warn("{}", job.problem);
-  const present::WaitingText text{
-      .title = options.title, .detail = job.problem.empty() ? options.detail : job.problem};
-  for (const std::string& file : job.files) writePicture(file, text, lastPainting());
-  if (job.targets.empty()) return 0;
+  const present::WaitingText text{.title = options.title,
+                                  .detail = job.problem.empty() ? options.detail : job.problem};
+  if (!options.file.empty()) {
+    writePicture(options.file, text, lastPainting());
+    return 0;
+  }
   const std::unique_ptr<hal::VirtualTerminal> terminal = takeConsole();
   RescuePicture picture(
       job.targets, [&](const std::string& target) { return hal::openOutput(target, job.options); },

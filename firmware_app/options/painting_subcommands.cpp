@@ -227,14 +227,18 @@ void addRescue(CLI::App& app, RescueOptions& options, std::function<int()>& chos
   CLI::App& command = *app.add_subcommand(
       "rescue", "show a picture with a text on a display, without a camera and without GL");
   addOutputs(command, options.configuration,
-             "the display (default: those of the configuration, else the first), or a file "
-             "(.png, .jpg, .tif) that the picture is written to");
+             "the display (default: those of the configuration, else the first)");
   command.add_option("--title", options.title, "the text (default: that the painting comes back)")
       ->type_name("TEXT");
   command
       .add_option("--detail", options.detail,
                   "a smaller line under it; what is wrong with the configuration replaces it")
       ->type_name("TEXT");
+  command
+      .add_option("--write", options.file,
+                  "write the picture to a file (.png, .jpg, .tif) instead of showing it")
+      ->excludes("--output")
+      ->type_name("FILE");
   command
       .add_option_function<std::string>(
           "--seconds",

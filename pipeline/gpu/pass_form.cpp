@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstring>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "hal/error.h"
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/gpu/gl.h"
+#include "pipeline/gpu/shader_interface.h"
 
 namespace pleinair::gpu {
 namespace {
@@ -48,7 +50,7 @@ bool isUnsigned(TextureFormat format) {
 }
 
 /// An output as the four components that imageStore() takes.
-std::string fourOf(const std::string& type, const std::string& name) {
+std::string asVec4(const std::string& type, const std::string& name) {
   if (type == "float") return fmt::format("vec4({}, 0.0, 0.0, 1.0)", name);
   if (type == "vec2") return fmt::format("vec4({}, 0.0, 1.0)", name);
   if (type == "vec3") return fmt::format("vec4({}, 1.0)", name);
@@ -83,9 +85,10 @@ std::string computeFormOf(std::string_view fragment, std::span<const TextureForm
   static const std::regex kMain(R"(\bvoid main\(\))");
   std::string declared;
   std::string stores;
-  std::size_t outputs = 0;
+  std::set<std::size_t> outputs;
+  bool hasMain = false;
   std::string body;
-  std::istringstream lines{std::string(fragment)};
+  std::istringstream lines(activeLines(fragment));
   for (std::string line; std::getline(lines, line);) {
     std::smatch match;
     if (std::regex_search(line, match, kOutput)) {
@@ -99,26 +102,28 @@ std::string computeFormOf(std::string_view fragment, std::span<const TextureForm
           fmt::format("layout({}, binding = {}) writeonly uniform highp {} passTarget{}; ", format,
                       location, isUnsigned(targets[location]) ? "uimage2D" : "image2D", location);
       stores +=
-          fmt::format("  imageStore(passTarget{}, pixel, {});\n", location, fourOf(type, name));
+          fmt::format("  imageStore(passTarget{}, passPixel, {});\n", location, asVec4(type, name));
       line = type + " " + name + ";" + match.suffix().str();
-      ++outputs;
+      if (!outputs.insert(location).second) refuse("two outputs have one location");
     }
-    line = std::regex_replace(line, kPlace, "passPlace");
+    line = std::regex_replace(line, kPlace, "passFragCoord");
+    hasMain = hasMain || std::regex_search(line, kMain);
     line = std::regex_replace(line, kMain, "void runPass()");
     body += line + "\n";
   }
-  if (outputs != targets.size()) refuse("it writes to fewer targets than it was made for");
+  if (outputs.size() != targets.size()) refuse("it writes to fewer targets than it was made for");
+  if (!hasMain) refuse("it has no \"void main()\"");
   // Behind the version, which must come first.
   const std::size_t version = body.find('\n') + 1;
   body.insert(version,
               "#extension GL_NV_image_formats : require\n"
-              "layout(local_size_x = 8, local_size_y = 8) in; highp vec4 passPlace; " +
+              "layout(local_size_x = 8, local_size_y = 8) in; highp vec4 passFragCoord; " +
                   declared + "\n");
   return body +
          "void main() {\n"
-         "  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);\n"
-         "  if (any(greaterThanEqual(pixel, imageSize(passTarget0)))) return;\n"
-         "  passPlace = vec4(vec2(pixel) + 0.5, 0.0, 1.0);\n"
+         "  ivec2 passPixel = ivec2(gl_GlobalInvocationID.xy);\n"
+         "  if (any(greaterThanEqual(passPixel, imageSize(passTarget0)))) return;\n"
+         "  passFragCoord = vec4(vec2(passPixel) + 0.5, 0.0, 1.0);\n"
          "  runPass();\n" +
          stores + "}\n";
 }

@@ -16,9 +16,9 @@ struct ContextInfo;
 /// driver's rounding.
 enum class PassForm { kFragment, kCompute };
 
-/// The faster form on a context's GPU. kCompute on NVIDIA's own driver: its data-centre GPUs have
-/// few units that draw (docs/gpu.md). Tile-based GPUs keep what is drawn compressed, and software
-/// renderers shade fragments faster.
+/// The faster form on a context's GPU. kCompute on NVIDIA's own driver, measured on an H200, which
+/// has few units that draw (docs/decisions/0115-passes-as-compute.md). Tile-based GPUs keep what is
+/// drawn compressed, and software renderers shade fragments faster.
 PassForm fasterPassForm(const ContextInfo& context);
 
 /// Whether the current context can write to images of all formats that a target can have
@@ -31,10 +31,10 @@ using PassTargets = std::vector<TextureFormat>;
 /// Lines that computeFormOf() puts behind the first one.
 inline constexpr int kComputeFormLines = 2;
 
-/// A fragment shader's expanded text as a compute shader's.
-/// The shader may read gl_FragCoord.xy; it has no other inputs, neither derivatives nor `discard`,
-/// and samples no smaller levels of textures by itself. Throws hal::Failure (kInternal) where its
-/// outputs are not `targets`.
+/// A fragment shader's expanded text as a compute shader's. The shader may read gl_FragCoord.xy; it
+/// has no other inputs, neither derivatives nor `discard`, and samples no smaller levels of
+/// textures by itself. Throws hal::Failure (kInternal) where its outputs are not `targets`, or it
+/// has no "void main()".
 std::string computeFormOf(std::string_view fragment, std::span<const TextureFormat> targets);
 
 }  // namespace pleinair::gpu

@@ -73,7 +73,7 @@ struct Program::Linked {
   std::string label;
   std::string pass;
   std::vector<Input> inputs;
-  PassTargets targets;  // of the compute form of a full-screen pass
+  PassTargets targets;  // a full-screen pass in its compute form writes to these formats
   glm::ivec2 groupSize{1};
   VertexArrayHandle emptyVertexArray;
 
@@ -259,6 +259,8 @@ Program& Program::image(std::string_view name, const Texture& texture, ImageAcce
 void Program::drawFullscreen(const RenderTarget& target) {
   if (!linked_->targets.empty()) {
     target.bindAsImages(linked_->targets);
+    // Unlike drawing, stores to images wait for nothing that has read or written the target before.
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     dispatch({target.size().width, target.size().height},
              GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
                  GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);

@@ -286,7 +286,7 @@ TEST_F(Everyday, ACrashUnderAMemoryLimitNamesTheLimit) {
 
 TEST_F(Everyday, TheRescuePictureIsWrittenToAFile) {
   const auto written = [&](const std::string& name, const std::string& title) {
-    const ProgramRun run = runProgram({"rescue", "--output", path(name), "--title", title},
+    const ProgramRun run = runProgram({"rescue", "--write", path(name), "--title", title},
                                       {.environment = {"STATE_DIRECTORY=" + path("none")}});
     EXPECT_EQ(run.status, 0) << run.error;
     hal::Image picture = hal::orThrow(hal::readPictureRgb(path(name)));

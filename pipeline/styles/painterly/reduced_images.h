@@ -67,8 +67,8 @@ class ReducedImages {
   static std::optional<std::size_t> levelOf(double px);
   float texelPx(std::size_t halvings) const;
 
-  gpu::Program halve_;       // of RGBA8
-  gpu::Program halveApart_;  // of RGBA16F
+  gpu::Program halve_;       // RGBA8 images
+  gpu::Program halveApart_;  // RGBA16F images
   gpu::Program part_;
   gpu::PerSize<Surfaces> surfaces_;
   const Surfaces* now_ = nullptr;

@@ -164,7 +164,7 @@ def hung(images, folder):
 
 
 # appliance/image/cannot-start.jpg: paper in the corners, and a sky between them.
-def _is_trouble(screen):
+def _cannot_start(screen):
     def colour(x, y):
         at = 3 * (int(y * screen.height) * screen.width + int(x * screen.width))
         return screen.pixels[at:at + 3]
@@ -174,10 +174,10 @@ def _is_trouble(screen):
     return all(min(each) > 215 and each[0] > each[2] for each in corners) and 130 < red < blue - 12
 
 
-def _shows_trouble(machine, name, minutes):
+def _says_cannot_start(machine, name, minutes):
     """Waits for the boot loader's picture; keeps it as NAME.ppm."""
     end = time.monotonic() + 60 * minutes
-    while not _is_trouble(machine.screen(name)):
+    while not _cannot_start(machine.screen(name)):
         if time.monotonic() > end:
             raise Failed(f"the screen does not say that no slot starts: {name}.ppm")
         time.sleep(0.5)
@@ -185,60 +185,68 @@ def _shows_trouble(machine, name, minutes):
 
 def slots_bad(images, folder):
     """Neither system can be opened, and then neither kernel: a picture says that the machine goes on trying. With one of them
-    mended, it paints, and no longer says so."""
+    restored, it paints, and no longer says so."""
     disk = _copy(images.disk(), folder)
     places = check.partitions(disk)
     with open(os.path.join(kiosk.kernel_of(images.disk()), "cmdline")) as file:
         tree = int(re.search(r"pleinair\.hashoffset=(\d+)", file.read()).group(1))
-    spoilt = {name: places[name] + offset for name, offset in
+    damaged = {name: places[name] + offset for name, offset in
               (("root-a", tree), ("root-b", tree), ("kernel-a", 0), ("kernel-b", 0))}
     kept = {}
 
-    def spoil(*names):
+    def damage(*names):
         with open(disk, "r+b") as file:
             for name in names:
-                file.seek(spoilt[name])
+                file.seek(damaged[name])
                 kept[name] = file.read(65536)
-                file.seek(spoilt[name])
+                file.seek(damaged[name])
                 file.write(bytes(65536))
 
-    def mend(*names):
+    def restore(*names):
         with open(disk, "r+b") as file:
             for name in names:
-                file.seek(spoilt[name])
+                file.seek(damaged[name])
                 file.write(kept[name])
 
-    spoil("root-a", "root-b")
+    damage("root-a", "root-b")
     with Kiosk(disk, folder) as machine:
         for root in ("vda4", "vda5"):
             machine.wait_for(f"{root} cannot be opened", 15)
-        _shows_trouble(machine, "no-root", 10)
+        _says_cannot_start(machine, "no-root", 10)
         machine.wait_for("vda4 cannot be opened", 5)
-        _shows_trouble(machine, "no-root-again", 5)
-    spoil("kernel-a", "kernel-b")
+        _says_cannot_start(machine, "no-root-again", 5)
+    damage("kernel-a", "kernel-b")
+    check.set_in_block(disk, folder, EXHAUSTED="", a_TRY=0, b_TRY=0)
     with Kiosk(disk, os.path.join(folder, "kernels")) as machine:
-        _shows_trouble(machine, "no-kernel", 5)
-    mend("root-b", "kernel-b")
-    with Kiosk(disk, os.path.join(folder, "mended")) as machine:
+        _says_cannot_start(machine, "no-kernel", 5)
+    restore("root-b", "kernel-b")
+    with Kiosk(disk, os.path.join(folder, "restored")) as machine:
         print(f"painting after {machine.paints(MINUTES):.0f} s", flush=True)
         machine.wait_for("slot b is confirmed", MINUTES)
         said = machine.run("/usr/lib/pleinair/bin/grub-editenv /boot/efi/EFI/BOOT/grubenv list")
-        if "TROUBLED=\n" not in said:
+        if "EXHAUSTED=\n" not in said:
             raise Failed("it will still say that no slot starts: " + said)
 
 
 def gpu_lost(images, folder):
-    """The GPU is lost, and so is every context that is made anew: the last painting stays on the screen, until it comes back."""
+    """The GPU is lost, and so is every context that is made anew: the last painting stays, with a text, until it comes back."""
     with Kiosk(kiosk.overlay(images.losing_disk(), os.path.join(folder, "disk.qcow2")), folder) as machine:
         print(f"painting after {machine.paints(MINUTES):.0f} s", flush=True)
         machine.run("touch /run/lost-gpu")
+        service = _service(machine)
         machine.wait_for("GPU: was reset", 5)
+        time.sleep(60)
+        first = machine.screen("lost-first")
         end = time.monotonic() + 60 * LOST_MINUTES
         while time.monotonic() < end:
             screen = machine.screen("lost")
             if screen.kind() != "picture":
                 raise Failed("the screen shows nothing, or a console: lost.ppm")
+            if screen.changed(first) > 0:
+                raise Failed("its picture does not stay: lost-first.ppm, lost.ppm")
             time.sleep(1)
+        if _service(machine) != service:
+            raise Failed("the service was started again")
         machine.run("rm /run/lost-gpu")
         print(f"painting {machine.paints(MINUTES):.0f} s after the GPU was there again", flush=True)
 

@@ -36,6 +36,9 @@ VERSION_WORDS = "pleinair.trial_minutes={}"
 # A real-time thread that the emulation slows down has used up its time, and is killed for it (LimitRTTIME=).
 EMULATED = "[Service]\nLimitRTPRIO=0\n"
 HANGING_SERVICE = "[Service]\nType=simple\nWatchdogSec=0\nExecStart=\nExecStart=/usr/bin/sleep infinity\n"
+# What make-disk takes from the tree.
+BOOT_FILES = [os.path.join(kiosk.SOURCE, "appliance", "image", name)
+              for name in ("cannot-start.jpg", "cmdline", "genimage.cfg.in", "grub.cfg", "make-disk", "slots.cfg")]
 # The program that a preloaded library tells of a lost GPU.
 LOSING_SERVICE = EMULATED + "Environment=LD_PRELOAD=/usr/lib/pleinair/lost_gpu.so\n"
 CRASHING_SERVICE = "[Service]\nExecStart=\nExecStart=/usr/bin/false\n"
@@ -75,7 +78,7 @@ class Images:
         output = os.path.join(self._made, version)
         done = os.path.join(output, "done")
         stamp = f"{os.path.getmtime(self._tar)} {VERSION_WORDS.format(minutes)} {kiosk_settings} {control} {kiosk.COMMANDS}"
-        stamp = " ".join([stamp, *(digest(each) for each in libraries)])
+        stamp = " ".join([stamp, *(digest(each) for each in (*libraries, *BOOT_FILES))])
         if os.path.exists(done) and open(done).read() == stamp:
             return output
         shutil.rmtree(output, ignore_errors=True)

@@ -282,16 +282,16 @@ class Slots(unittest.TestCase):
         starts = self.starts(13)
         self.assertEqual(starts, "aaabbbaaabbba")
 
-    def test_a_machine_of_which_no_slot_paints_is_troubled_until_one_does(self):
+    def test_starts_that_were_used_up_are_remembered_until_a_slot_paints(self):
         self.starts(6)
-        self.assertIn(self.values("TROUBLED"), [("",), (None,)])
+        self.assertIn(self.values("EXHAUSTED"), [("",), (None,)])
         self.starts(1)
-        self.assertEqual(self.values("TROUBLED"), ("1",))
+        self.assertEqual(self.values("EXHAUSTED"), ("1",))
         self.starts(1)
-        self.assertEqual(self.values("TROUBLED"), ("1",), "it stays so from start to start")
+        self.assertEqual(self.values("EXHAUSTED"), ("1",), "it stays so from start to start")
         self.machine.paint()
         self.assertEqual(self.starts(2), "aa")
-        self.assertEqual(self.values("TROUBLED"), ("",))
+        self.assertEqual(self.values("EXHAUSTED"), ("",))
 
     def test_a_machine_of_which_no_slot_is_good_starts_one(self):
         self.machine.disk.set(a_OK=0, b_OK=0)

@@ -32,10 +32,10 @@ TEST(ComputeFormTest, WritesEachOutputToAnImageOfItsFormat) {
               HasSubstr("layout(rg16f, binding = 0) writeonly uniform highp image2D passTarget0;"));
   EXPECT_THAT(
       text, HasSubstr("layout(r32ui, binding = 1) writeonly uniform highp uimage2D passTarget1;"));
-  EXPECT_THAT(text, HasSubstr("imageStore(passTarget0, pixel, vec4(tensor, 0.0, 1.0));"));
-  EXPECT_THAT(text, HasSubstr("imageStore(passTarget1, pixel, uvec4(border, 0u, 0u, 1u));"));
+  EXPECT_THAT(text, HasSubstr("imageStore(passTarget0, passPixel, vec4(tensor, 0.0, 1.0));"));
+  EXPECT_THAT(text, HasSubstr("imageStore(passTarget1, passPixel, uvec4(border, 0u, 0u, 1u));"));
   EXPECT_THAT(text, HasSubstr("\nvec2 tensor;\n"));
-  EXPECT_THAT(text, HasSubstr("tensor = passPlace.xy;"));
+  EXPECT_THAT(text, HasSubstr("tensor = passFragCoord.xy;"));
   EXPECT_THAT(text, Not(HasSubstr("gl_FragCoord")));
 }
 
