@@ -133,7 +133,7 @@ struct RescueOptions {
   ConfigurationRequest configuration;  ///< where the picture is shown; may be wrong
   std::string title = "The painting will be back soon";
   std::string detail;
-  std::filesystem::path file;         ///< one that the picture is written to; empty: it is shown
+  std::filesystem::path file;  ///< where the picture is written instead of shown; empty: nowhere
   std::optional<hal::Duration> time;  ///< default: until a signal
   /// Twice as long each time, as RescueBackOff, where a service manager gives a folder.
   bool backsOff = false;

@@ -18,7 +18,7 @@ enum class PassForm { kFragment, kCompute };
 
 /// The faster form on a context's GPU. kCompute on NVIDIA's own driver, measured on an H200, which
 /// has few units that draw (docs/decisions/0115-passes-as-compute.md). Tile-based GPUs keep what is
-/// drawn compressed, and software renderers shade fragments faster.
+/// drawn compressed; other drivers were not measured.
 PassForm fasterPassForm(const ContextInfo& context);
 
 /// Whether the current context can write to images of all formats that a target can have
