@@ -277,8 +277,9 @@ void main() {
   Arm behind = walked[kWalkers + int(gl_LocalInvocationIndex)];
   if (!bothWays) behind = Arm(vec3(0.0), 0.0, 0.0);
   vec2 lengths = vec2(ahead.length, behind.length);
-  vec3 colour = (kOwnWeight * own + ahead.colour + behind.colour) /
-                (kOwnWeight + ahead.weight + behind.weight);
+  float weight = ownWeight(layer.y - 1.0 - layer.x);
+  vec3 colour = (weight * own + ahead.colour + behind.colour) /
+                (weight + ahead.weight + behind.weight);
 
   // Before a standing camera, nothing but its content changes a stroke of the background.
   bool isResting = isStanding && !isNew && !isOnMover && !isModel;

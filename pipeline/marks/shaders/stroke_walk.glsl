@@ -59,8 +59,10 @@ float partOnPatch(vec2 from, vec2 to, Support on, inout float strayed) {
   return 1.0;
 }
 
-// The anchor's place counts more than the rest of the stroke, or small lights would vanish.
-const float kOwnWeight = 3.0;
+// The anchor's place counts more than the rest of a fine stroke, or small lights would vanish. Coarser
+// ones, which lie under these, go beyond what they begin on: their ends would be seen in a colour that is
+// not there.
+float ownWeight(float layersAbove) { return 3.0 * exp2(-2.0 * layersAbove); }
 
 struct Arm {
   vec3 colour;  // sum over its visible part

@@ -1,5 +1,6 @@
 // Strokes: how they are grown, against the thesis's text on the CPU, and where they end.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -163,6 +164,32 @@ TEST_F(StrokeSetTest, EndsWhereTheColourChanges) {
     EXPECT_NEAR(each.colour.r, isLeft ? 0.2 : 0.8, 0.02) << each.anchor.x;
   }
   EXPECT_GT(ended, 40);
+}
+
+/// Coarse strokes that begin on something small lie under finer ones there, and are seen beyond it.
+TEST_F(StrokeSetTest, TheCoarserTheLayerTheLessCountsWhatAStrokeBeginsOn) {
+  const hal::Image paint =
+      greyPicture(kSize, [](glm::dvec2 px) { return std::abs(px.x - 128) < 3 ? 0.8 : 0.4; });
+  StrokeRule rule = kPlain;
+  rule.colourThreshold = 2.0F;  // no stroke ends there
+  rule.layers = 3;
+  std::array<double, 3> shares{};  // of the thing's colour in the strokes that begin on it
+  for (rule.layer = 0; rule.layer < rule.layers; ++rule.layer) {
+    beginAnew();
+    advance(greyPicture(kSize, kLevel), rule, standing(), &paint);
+    int count = 0;
+    double sum = 0.0;
+    for (const StrokeTips& each : tips(rule.segmentPx)) {
+      if (std::abs(each.anchor.x - 128.0F) > 2.0F) continue;
+      sum += (each.colour.r - 0.4) / 0.4;
+      ++count;
+    }
+    ASSERT_GT(count, 5);
+    shares.at(static_cast<std::size_t>(rule.layer)) = sum / count;
+  }
+  EXPECT_LT(shares[0], 0.05);
+  EXPECT_LT(shares[1], 0.15);
+  EXPECT_GT(shares[2], 0.25) << "small lights would vanish";
 }
 
 TEST_F(StrokeSetTest, EndsWhereItWouldBendTooMuch) {
