@@ -7,18 +7,18 @@ import time
 RUNS = 5
 
 
-def host_seconds(program):
+def host_seconds(*command):
     """How long a program takes on this machine."""
     begin = time.monotonic()
-    subprocess.run([program], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     return time.monotonic() - begin
 
 
-def ratio(host, guest):
+def ratio(host, guest, what="a fixed program takes"):
     """Of the seconds that one program's runs took."""
     outside, inside = statistics.median(host), statistics.median(guest)
     patience = max(1, inside / outside)
-    print(f"a fixed program takes {1000 * outside:.0f} ms here and {inside:.2f} s in the guest: "
+    print(f"{what} {1000 * outside:.0f} ms here and {inside:.2f} s in the guest: "
           f"patience {patience:.1f}, at a load of {os.getloadavg()[0]:.1f}")
     return patience
 

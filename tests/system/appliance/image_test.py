@@ -31,7 +31,7 @@ from kiosk import ARCH, CONFIRM_MINUTES, Failed, Kiosk, kernel_of, set_up  # noq
 
 SKIPPED = 77
 # Of the machine, whatever its version: software GL, the kernel's virtual camera, and the journal on the serial port.
-WORDS = "pleinair.software_gl modules_load=vivid console=ttyS0 systemd.journald.forward_to_console=1"
+WORDS = f"{kiosk.check.WORDS} console=ttyS0 systemd.journald.forward_to_console=1"
 VERSION_WORDS = "pleinair.trial_minutes={}"
 # A real-time thread that the emulation slows down has used up its time, and is killed for it (LimitRTTIME=).
 EMULATED = "[Service]\nLimitRTPRIO=0\n"

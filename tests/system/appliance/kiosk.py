@@ -80,7 +80,7 @@ def run_in_system(disk, kernel, script, stick_file, folder, minutes):
         "qemu-system-x86_64", "-M", "q35", "-accel", check.ACCELERATOR, "-cpu", check.PROCESSOR,
         "-smp", "2", "-m", "1024", "-nodefaults", "-display", "none", "-no-reboot",
         "-kernel", os.path.join(kernel, "vmlinuz"), "-initrd", os.path.join(kernel, "initrd.img"),
-        "-append", f'{words} console=ttyS0 init=/bin/bash -- -c "{command}"', "-serial", f"file:{said}",
+        "-append", f'{words} {check.UNMITIGATED} console=ttyS0 init=/bin/bash -- -c "{command}"', "-serial", f"file:{said}",
         *(word for file in (disk, stick_file, first)
           for word in ("-drive", f"file={file},if=virtio,format={'qcow2' if file.endswith('.qcow2') else 'raw'}"))])
     try:
