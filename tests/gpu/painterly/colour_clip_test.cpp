@@ -41,21 +41,28 @@ class ClippedStroke : public StripTest {
     int onEye = 0;   ///< alpha in the eye's middle
     int beside = 0;  ///< 20 px from it, along the stroke
   };
+  /// What borders.frag would say of all of it.
+  struct Border {
+    std::uint32_t other = 0;
+    std::uint32_t share = 0;  ///< of 31, the stroke's side
+  };
   Cover drawn(std::uint32_t label, float colourClip) {
+    return drawn(label, colourClip, {.other = label, .share = 31}, kEye);
+  }
+  Cover drawn(std::uint32_t label, float colourClip, const Border& border, const Pixel& eye) {
     hal::Image face = plainPicture(kSkin, {kClipped.width / 2, kClipped.height / 2});
     for (int y = 22; y < 26; ++y) {
       for (int x = 22; x < 26; ++x) {
         for (std::size_t c = 0; c < 3; ++c) {
           face.row(0, y)[static_cast<std::size_t>(4 * x) + c] =
-              static_cast<std::uint8_t>(kEye.at(c));
+              static_cast<std::uint8_t>(eye.at(c));
         }
       }
     }
     gpu::Texture picture(gpu::TextureFormat::kRgba8, face.size(), gpu::TextureFilter::kLinear);
     picture.upload(face.plane(0), static_cast<std::size_t>(face.size().width) * 4);
-    // All of it is of one label: borders.frag's own and other, and the whole share.
     const std::vector<std::uint32_t> pixels(static_cast<std::size_t>(kClipped.pixels()),
-                                            label | label << 13U | 31U << 26U);
+                                            label | border.other << 13U | border.share << 26U);
     gpu::Texture borders(gpu::TextureFormat::kR32ui, kClipped);
     borders.upload({reinterpret_cast<const std::uint8_t*>(pixels.data()), 4 * pixels.size()},
                    static_cast<std::size_t>(kClipped.width) * 4);
@@ -85,6 +92,18 @@ TEST_F(ClippedStroke, OfAMoverLeavesOutWhatIsOfAnotherColour) {
   EXPECT_GT(with.beside, 200);
   const Cover without = drawn(kMoverLabel, 0.0F);
   EXPECT_GT(without.onEye, 200) << "the control";
+}
+
+/// Labels reach beyond a mover here and there: the picture has the ground's colour then.
+TEST_F(ClippedStroke, AtAMoversBorderLeavesOutTheGroundsColourButNoMixture) {
+  constexpr Border kBorder{.other = 0, .share = 20};
+  EXPECT_LT(drawn(kMoverLabel, 1.0F, kBorder, kEye).onEye, 8);
+  EXPECT_GT(drawn(kMoverLabel, 0.0F, kBorder, kEye).onEye, 200) << "the control";
+  constexpr Pixel kMixed{164, 131, 115};  // a third of the eye's colour
+  EXPECT_GT(drawn(kMoverLabel, 1.0F, kBorder, kMixed).onEye, 200);
+  EXPECT_LT(drawn(kMoverLabel, 1.0F).onEye, 8);
+  EXPECT_LT(drawn(kMoverLabel, 1.0F, {.other = kMoverLabel, .share = 31}, kMixed).onEye, 80)
+      << "inside a mover, it is of another colour";
 }
 
 TEST_F(ClippedStroke, OfTheRestOfThePictureIsWhole) {

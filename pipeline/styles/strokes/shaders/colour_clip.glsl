@@ -15,14 +15,18 @@ uniform vec2 targetSize;
 
 // From no clear difference to a clear one.
 const vec2 kClear = vec2(0.04, 0.22);
+// At a mover's border, whose colour is mixed of both sides', as the paint will be. Where labels reach
+// beyond the mover, the border is the ground's colour alone.
+const vec2 kClearAtBorder = vec2(0.3, 0.5);
 
-float shareOfColour(vec3 rgb, bool isCarried) {
+float shareOfColour(vec3 rgb, bool isCarried, bool isAtBorder) {
   float share = 1.0;
   // A loop that no invocation enters costs nothing on software renderers.
   for (int i = isCarried && colourClip > 0.0 ? 0 : 1; i < 1; ++i) {
     vec3 seen = texture(picture, gl_FragCoord.xy / targetSize).rgb;
     vec3 other = byLuma ? vec3(lumaOf(rgb - seen)) : rgb - seen;
-    share -= colourClip * smoothstep(kClear.x, kClear.y, weightedLength(other));
+    vec2 clear = isAtBorder ? kClearAtBorder : kClear;
+    share -= colourClip * smoothstep(clear.x, clear.y, weightedLength(other));
   }
   return share;
 }

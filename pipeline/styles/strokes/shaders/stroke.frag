@@ -20,8 +20,7 @@ void main() {
   float cover = paint.a * texel.r;
 #ifdef CLIPPED
   Within share = within();
-  // The colour of a mover's border is mixed of both sides', as their paint will be.
-  cover *= shareOfColour(paint.rgb, goesByItself(label) && !share.isMixed);
+  cover *= shareOfColour(paint.rgb, goesByItself(label), share.isMixed);
 #endif
 #ifdef BUMPED
   rgb = bumped(rgb, place);
