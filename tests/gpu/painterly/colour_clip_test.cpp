@@ -41,7 +41,7 @@ class ClippedStroke : public StripTest {
     int onEye = 0;   ///< alpha in the eye's middle
     int beside = 0;  ///< 20 px from it, along the stroke
   };
-  /// What borders.frag would say of all of it.
+  /// A border, as borders.frag packs it, of which every pixel is.
   struct Border {
     std::uint32_t other = 0;
     std::uint32_t share = 0;  ///< of 31, the stroke's side

@@ -17,8 +17,8 @@ DefaultDependencies=no
 Type=oneshot
 ExecStart=/bin/sh -c 'read up idle </proc/uptime; echo "CONTROL $$up" >/dev/ttyS0'
 """
-# Seconds after the control unit, over the patience of starting programs: it takes 0.3 to 0.5 of them (docs/measured.md, "The machine
-# image"), and may take 1.0 on hardware.
+# The first picture's seconds after the control unit, over the patience of starting programs: 0.3 to 0.5 were measured
+# (docs/measured.md, "The machine image"). 1.0 is the aim on hardware.
 FIRST_PICTURE_LIMIT = 0.75
 PAINTING_LIMIT = 1.3  # times what the service takes from its own start on
 BOOTS = 3  # the emulated machine is at times slower for seconds
@@ -32,7 +32,7 @@ def seconds_of(pattern, journal):
     return float(found[0])
 
 
-# A machine's start is made of the starts of programs. Emulation slows these down two to three times as much as it slows down one
+# A machine's start is made of the starts of programs. Emulation slows these down two to six times as much as it slows down one
 # that runs: their code is translated, and each process begins with empty tables of addresses.
 STARTS = "for each in {1..20}; do /bin/true; done"
 # In place of init: a fixed program, and the starts, over and over. The two numbers of a line are the begin and the end.

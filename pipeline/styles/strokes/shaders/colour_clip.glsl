@@ -15,8 +15,8 @@ uniform vec2 targetSize;
 
 // From no clear difference to a clear one.
 const vec2 kClear = vec2(0.04, 0.22);
-// At a mover's border, whose colour is mixed of both sides', as the paint will be. Where labels reach
-// beyond the mover, the border is the ground's colour alone.
+// The same at a mover's border. The picture mixes the colours of both sides there, as the paint will, so
+// that small differences say nothing. A label that reaches beyond its mover has the ground's colour alone.
 const vec2 kClearAtBorder = vec2(0.3, 0.5);
 
 float shareOfColour(vec3 rgb, bool isCarried, bool isAtBorder) {
