@@ -152,13 +152,17 @@ class Screen:
             return "black"
         return "picture" if self.colours() >= LEAST_COLOURS else "text"
 
-    def changed(self, other):
-        """The share of the bytes that differ clearly."""
+    def changed(self, other, begin=0):
+        """The share of the bytes, from `begin` on, that differ clearly; 1 for another mode of the display."""
         if len(self.pixels) != len(other.pixels):
             return 1.0
         step = 7
-        pairs = list(zip(self.pixels[::step], other.pixels[::step]))
+        pairs = list(zip(self.pixels[begin::step], other.pixels[begin::step]))
         return sum(abs(a - b) > 24 for a, b in pairs) / max(1, len(pairs))
+
+    def is_next_painting(self, other):
+        """Whether it differs as one painting does from the one before. Of the lower half, as texts lie over the upper one."""
+        return MOVED < self.changed(other, len(self.pixels) // 2) < 1.0
 
 
 class Firmware:
@@ -226,7 +230,7 @@ def judge(disk, folder, minutes, arch):
                 print(f"first picture after {at:.1f} s", flush=True)
             elif screen.changed(waiting) > OTHER_PICTURE:
                 # A display's mode may change with the first painting, but not from one to the next.
-                if not paintings or MOVED < screen.changed(paintings[-1]) < 1.0:
+                if not paintings or screen.is_next_painting(paintings[-1]):
                     paintings.append(screen)
                     print(f"painting {len(paintings)} after {at:.1f} s", flush=True)
                 if len(paintings) == 3:

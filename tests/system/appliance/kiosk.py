@@ -241,7 +241,7 @@ class Kiosk:
         while True:
             time.sleep(2)
             now = self.screen(name)
-            if now.kind() == "picture" and check.MOVED < now.changed(before) < 1.0:
+            if now.kind() == "picture" and now.is_next_painting(before):
                 return
             if time.monotonic() > end:
                 raise Failed(f"it no longer paints: {name}.ppm")
@@ -267,7 +267,7 @@ class Kiosk:
             if after_firmware and screen.kind() == "picture":
                 waiting = waiting or screen
                 if screen.changed(waiting) > check.OTHER_PICTURE:
-                    if last and check.MOVED < screen.changed(last) < 1.0:
+                    if last and screen.is_next_painting(last):
                         return time.monotonic() - began
                     last = screen
             time.sleep(1)

@@ -7,7 +7,7 @@ import time
 
 from judges import closing_line
 from judges.growth import Soak
-from kiosk import Failed, check
+from kiosk import Failed
 
 EVERY = 10  # seconds
 CHROOT_MINUTES = 90
@@ -118,7 +118,7 @@ def soak_machine(machine, confirmed, minutes_until):
     said = machine.journal()[before:]
     screen = machine.screen("end")
     time.sleep(60)
-    if not check.MOVED < machine.screen("end-a-minute-later").changed(screen) < 1.0:
+    if not machine.screen("end-a-minute-later").is_next_painting(screen):
         raise Failed("it no longer paints")
     first = samples[0][0]
     samples = [(at - first, memory, descriptors) for at, memory, descriptors in samples]

@@ -39,6 +39,16 @@ class Screens(unittest.TestCase):
         self.assertEqual(self.screen(640, 480, line(0)).kind(), "text")
         self.assertEqual(self.screen(800, 480, line(232)).kind(), "text")
 
+    def test_a_text_that_comes_over_a_painting_is_no_next_painting(self):
+        def painting(shift, caption=0):
+            return self.screen(64, 48, lambda x, y: (0, 0, 0) if y < caption else (4 * (x + shift) % 256, 5 * y, 90))
+        first = painting(0)
+        self.assertTrue(painting(9).is_next_painting(first))
+        self.assertTrue(painting(9, caption=10).is_next_painting(first))
+        self.assertFalse(painting(0, caption=10).is_next_painting(first))
+        self.assertFalse(painting(0).is_next_painting(first))
+        self.assertFalse(self.screen(32, 48).is_next_painting(first))
+
     def phases(self, mode_at, moments):
         """Whether the firmware is done at each moment, where its own mode comes at `mode_at`."""
         firmware = check.Firmware()
