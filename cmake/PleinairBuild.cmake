@@ -93,6 +93,8 @@ endfunction()
 # its tests' names and their CTest label; QUICK makes the label "kind-quick", which `./dev test quick`
 # selects. CTest runs each case in a process of its own. BY_SUITE, which gpu and golden imply, runs
 # each suite in one process, which loads the GL driver and compiles its code once a suite.
+# PLEINAIR_ONE_PROCESS_TESTS makes one test "kind.NAME" of each executable.
+option(PLEINAIR_ONE_PROCESS_TESTS "Run each test program in one process: where starting one is slow" OFF)
 function(pleinair_tests name)
   cmake_parse_arguments(ARG "QUICK;BY_SUITE" "KIND;TIMEOUT" "SOURCES;ALONE;LIBS" ${ARGN})
   set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
@@ -120,7 +122,11 @@ function(pleinair_tests name)
   if(PLEINAIR_SANITIZE)
     math(EXPR ARG_TIMEOUT "10 * ${ARG_TIMEOUT}")
   endif()
-  if(ARG_BY_SUITE OR ARG_KIND MATCHES "^(gpu|golden)$")
+  if(PLEINAIR_ONE_PROCESS_TESTS)
+    math(EXPR ARG_TIMEOUT "30 * ${ARG_TIMEOUT}")
+    add_test(NAME ${ARG_KIND}.${name} COMMAND ${name})
+    set_tests_properties(${ARG_KIND}.${name} PROPERTIES LABELS "${label}" TIMEOUT ${ARG_TIMEOUT})
+  elseif(ARG_BY_SUITE OR ARG_KIND MATCHES "^(gpu|golden)$")
     set(list "${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake")
     file(GENERATE OUTPUT "${list}" CONTENT
       "include(\"${CMAKE_SOURCE_DIR}/cmake/AddSuites.cmake\")
