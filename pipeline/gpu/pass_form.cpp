@@ -83,6 +83,8 @@ std::string computeFormOf(std::string_view fragment, std::span<const TextureForm
       R"(^layout\(location = ([0-9])\) out (?:highp |mediump |lowp )?(\w+) (\w+);)");
   static const std::regex kPlace(R"(\bgl_FragCoord\b)");
   static const std::regex kMain(R"(\bvoid main\(\))");
+  static const std::regex kOnlyOfFragments(
+      R"(\b(dFdx|dFdy|fwidth|discard|gl_FrontFacing|gl_PointCoord|gl_FragDepth)\b)");
   std::string declared;
   std::string stores;
   std::set<std::size_t> outputs;
@@ -105,6 +107,9 @@ std::string computeFormOf(std::string_view fragment, std::span<const TextureForm
           fmt::format("  imageStore(passTarget{}, passPixel, {});\n", location, asVec4(type, name));
       line = type + " " + name + ";" + match.suffix().str();
       if (!outputs.insert(location).second) refuse("two outputs have one location");
+    }
+    if (std::regex_search(line, match, kOnlyOfFragments)) {
+      refuse(fmt::format("it has \"{}\"", match[1].str()));
     }
     line = std::regex_replace(line, kPlace, "passFragCoord");
     hasMain = hasMain || std::regex_search(line, kMain);

@@ -60,5 +60,16 @@ TEST(ComputeFormTest, RefusesOtherTargetsThanTheShaderHas) {
       hal::Failure);
 }
 
+TEST(ComputeFormTest, RefusesWhatOnlyFragmentsHave) {
+  const auto withLine = [](std::string_view line) {
+    std::string text(kPass);
+    text.insert(text.find("  tensor"), std::string(line));
+    return computeFormOf(text, std::array{TextureFormat::kRg16f, TextureFormat::kR32ui});
+  };
+  EXPECT_NO_THROW((void)withLine("  float discarded = 0.0;\n"));
+  EXPECT_THROW((void)withLine("  if (gl_FragCoord.x < 3.0) discard;\n"), hal::Failure);
+  EXPECT_THROW((void)withLine("  float slope = dFdx(gl_FragCoord.x);\n"), hal::Failure);
+}
+
 }  // namespace
 }  // namespace pleinair::gpu
