@@ -20,7 +20,7 @@ import time
 
 LEAST_COLOURS = 200  # of a picture on paper; text on black has few
 OTHER_PICTURE = 0.4  # of the bytes: a painting in place of the waiting picture
-MOVED = 0.002
+MOVED = 1e-5  # as little as a camera's clock behind a text
 FIRMWARE_SECONDS = 20  # under emulation: 7 on an idle machine, and the kernel needs longer than the rest
 LATEST_MODE = 60  # seconds; a quick machine has its mode before the first look, and then none is seen to come
 FIRMWARE_MODES = 2  # GRUB is done at 1.3 times the moment of the firmware's first mode, however slow the machine
@@ -152,17 +152,41 @@ class Screen:
             return "black"
         return "picture" if self.colours() >= LEAST_COLOURS else "text"
 
-    def changed(self, other, begin=0):
-        """The share of the bytes, from `begin` on, that differ clearly; 1 for another mode of the display."""
+    def changed(self, other):
+        """The share of the bytes that differ clearly; 1 for another mode of the display."""
         if len(self.pixels) != len(other.pixels):
             return 1.0
         step = 7
-        pairs = list(zip(self.pixels[begin::step], other.pixels[begin::step]))
+        pairs = list(zip(self.pixels[::step], other.pixels[::step]))
         return sum(abs(a - b) > 24 for a, b in pairs) / max(1, len(pairs))
 
+    def _pixel(self, x, y):
+        at = 3 * (y * self.width + x)
+        return self.pixels[at:at + 3]
+
+    def is_card(self):
+        """A waiting picture, or one that says why no painting comes: its texts stand on paper below a picture
+        (pipeline/present/waiting_picture.cpp)."""
+        row = [self._pixel(x, int(0.94 * self.height)) for x in range(self.width // 4, 3 * self.width // 4)]
+        return sum(min(each) > 200 and 0 <= each[0] - each[2] < 40 for each in row) > 0.7 * len(row)
+
+    def has_caption(self):
+        """Whether a text lies over a painting: white on black that covers 63 %, from its upper left corner on
+        (pipeline/present/caption_picture.cpp). Only the box's upper rim is looked at, above the camera's own text."""
+        letters = min(self.width, self.height) // 38
+        left = next((x for x in range(self.width // 2) if max(self._pixel(x, self.height // 2)) > 60), 0)
+        rim = [max(self._pixel(x, y))
+               for y in range(3 * letters // 4, letters) for x in range(left + letters, left + 6 * letters)]
+        return sum(each <= 110 for each in rim) > 0.7 * len(rim)
+
+    def is_painting(self):
+        return self.kind() == "picture" and not self.is_card()
+
     def is_next_painting(self, other):
-        """Whether it differs as one painting does from the one before. Of the lower half, as texts lie over the upper one."""
-        return MOVED < self.changed(other, len(self.pixels) // 2) < 1.0
+        """Whether both are paintings, and differ by more than a text that has come or gone. A display's mode may change with the
+        first painting, but not from one to the next."""
+        return (self.is_painting() and other.is_painting() and self.has_caption() == other.has_caption() and
+                MOVED < self.changed(other) < 1.0)
 
 
 class Firmware:
@@ -228,8 +252,7 @@ def judge(disk, folder, minutes, arch):
             if waiting is None:
                 waiting = screen
                 print(f"first picture after {at:.1f} s", flush=True)
-            elif screen.changed(waiting) > OTHER_PICTURE:
-                # A display's mode may change with the first painting, but not from one to the next.
+            if screen.is_painting():
                 if not paintings or screen.is_next_painting(paintings[-1]):
                     paintings.append(screen)
                     print(f"painting {len(paintings)} after {at:.1f} s", flush=True)

@@ -83,8 +83,9 @@ std::string computeFormOf(std::string_view fragment, std::span<const TextureForm
       R"(^layout\(location = ([0-9])\) out (?:highp |mediump |lowp )?(\w+) (\w+);)");
   static const std::regex kPlace(R"(\bgl_FragCoord\b)");
   static const std::regex kMain(R"(\bvoid main\(\))");
-  static const std::regex kOnlyOfFragments(
-      R"(\b(dFdx|dFdy|fwidth|discard|gl_FrontFacing|gl_PointCoord|gl_FragDepth)\b)");
+  static const std::regex kFragmentOnly(
+      R"(\b(?:dFdx|dFdy|fwidth|discard|gl_FrontFacing|gl_PointCoord|gl_FragDepth)\b)"
+      R"(|^\s*(?:layout\([^)]*\)\s*)?(?:(?:flat|smooth|centroid|highp|mediump|lowp)\s+)*in\s)");
   std::string declared;
   std::string stores;
   std::set<std::size_t> outputs;
@@ -108,8 +109,9 @@ std::string computeFormOf(std::string_view fragment, std::span<const TextureForm
       line = type + " " + name + ";" + match.suffix().str();
       if (!outputs.insert(location).second) refuse("two outputs have one location");
     }
-    if (std::regex_search(line, match, kOnlyOfFragments)) {
-      refuse(fmt::format("it has \"{}\"", match[1].str()));
+    const std::string code = line.substr(0, line.find("//"));
+    if (std::regex_search(code, match, kFragmentOnly)) {
+      refuse(fmt::format("it has \"{}\"", match.str()));
     }
     line = std::regex_replace(line, kPlace, "passFragCoord");
     hasMain = hasMain || std::regex_search(line, kMain);

@@ -33,8 +33,9 @@ inline constexpr int kComputeFormLines = 2;
 
 /// A fragment shader's expanded text as a compute shader's. The shader may read gl_FragCoord.xy; it
 /// has no other inputs, neither derivatives nor `discard`, and samples no smaller levels of
-/// textures by itself. Throws hal::Failure (kInternal) where its outputs are not `targets`, it has
-/// no "void main()", or something that only fragments have.
+/// textures by itself. Throws hal::Failure (kInternal) where its outputs are not `targets`, where
+/// "void main()" is missing, and where it uses inputs, functions or variables that only fragment
+/// shaders have.
 std::string computeFormOf(std::string_view fragment, std::span<const TextureFormat> targets);
 
 }  // namespace pleinair::gpu

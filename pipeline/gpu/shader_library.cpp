@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -260,8 +259,6 @@ Program ShaderLibrary::made(const std::string& key, const std::function<Program(
 
 Program ShaderLibrary::fragmentPass(std::string_view fragmentName, const ShaderDefines& defines,
                                     const PassTargets& targets) const {
-  // What would fail on GPUs with compute forms only fails on each.
-  assert(targets.empty() || !computeFormOf(expand(fragmentName, defines).text, targets).empty());
   return passForm_ == PassForm::kCompute && !targets.empty()
              ? computePass(fragmentName, defines, targets)
              : draw(kFullscreenVertex, fragmentName, defines);

@@ -92,19 +92,6 @@ def run_in_system(disk, kernel, script, stick_file, folder, minutes):
         return file.read()
 
 
-def has_caption(screen):
-    """Whether a text lies over a painting: white on black that covers 63 %, from its upper left corner on
-    (pipeline/present/caption_picture.cpp). Only the box's upper rim is looked at, above the camera's own text."""
-    def brightest(x, y):
-        at = 3 * (y * screen.width + x)
-        return max(screen.pixels[at:at + 3])
-
-    letters = min(screen.width, screen.height) // 38
-    left = next((x for x in range(screen.width // 2) if brightest(x, screen.height // 2) > 60), 0)
-    rim = [brightest(x, y) for y in range(3 * letters // 4, letters) for x in range(left + letters, left + 6 * letters)]
-    return sum(each <= 110 for each in rim) > 0.7 * len(rim)
-
-
 def kernel_of(disk):
     """The folder of the kernel, initial file system and command line that belong to a disk of `Images`."""
     return os.path.join(os.path.dirname(disk), f"kernel-{ARCH}")
@@ -229,7 +216,7 @@ class Kiosk:
         """Waits until a text lies over the painting, or none does: the next painting shows it, which takes seconds under
         emulation. The screen is kept as NAME.ppm."""
         end = time.monotonic() + 60 * minutes
-        while has_caption(self.screen(name)) != expected:
+        while self.screen(name).has_caption() != expected:
             if time.monotonic() > end:
                 raise Failed(f"the screen {'says nothing' if expected else 'says something'}: {name}.ppm")
             time.sleep(1)
@@ -241,7 +228,7 @@ class Kiosk:
         while True:
             time.sleep(2)
             now = self.screen(name)
-            if now.kind() == "picture" and now.is_next_painting(before):
+            if now.is_next_painting(before):
                 return
             if time.monotonic() > end:
                 raise Failed(f"it no longer paints: {name}.ppm")
@@ -252,7 +239,7 @@ class Kiosk:
         before are kept as film-SECOND.ppm."""
         end = time.monotonic() + 60 * minutes
         began = time.monotonic()
-        waiting = last = kept = None
+        last = kept = None
         firmware = check.Firmware()
         while time.monotonic() < end and self._machine.is_running():
             screen = self.screen("now")
@@ -264,11 +251,9 @@ class Kiosk:
             if after_firmware and screen.kind() == "text":
                 shutil.copy(os.path.join(self.folder, "now.ppm"), os.path.join(self.folder, "text.ppm"))
                 raise Failed("there is text on the screen: " + os.path.join(self.folder, "text.ppm"))
-            if after_firmware and screen.kind() == "picture":
-                waiting = waiting or screen
-                if screen.changed(waiting) > check.OTHER_PICTURE:
-                    if last and screen.is_next_painting(last):
-                        return time.monotonic() - began
-                    last = screen
+            if after_firmware and screen.is_painting():
+                if last and screen.is_next_painting(last):
+                    return time.monotonic() - began
+                last = screen
             time.sleep(1)
         raise Failed(f"no painting came within {minutes} minutes")

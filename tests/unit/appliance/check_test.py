@@ -39,15 +39,36 @@ class Screens(unittest.TestCase):
         self.assertEqual(self.screen(640, 480, line(0)).kind(), "text")
         self.assertEqual(self.screen(800, 480, line(232)).kind(), "text")
 
-    def test_a_text_that_comes_over_a_painting_is_no_next_painting(self):
-        def painting(shift, caption=0):
-            return self.screen(64, 48, lambda x, y: (0, 0, 0) if y < caption else (4 * (x + shift) % 256, 5 * y, 90))
-        first = painting(0)
-        self.assertTrue(painting(9).is_next_painting(first))
-        self.assertTrue(painting(9, caption=10).is_next_painting(first))
-        self.assertFalse(painting(0, caption=10).is_next_painting(first))
-        self.assertFalse(painting(0).is_next_painting(first))
-        self.assertFalse(self.screen(32, 48).is_next_painting(first))
+    def painting(self, shift=0, caption=False, paper=0):
+        """A moving picture, with a text's box at its upper left, or paper under it: its last `paper` rows."""
+        def colour(x, y):
+            if y >= 240 - paper:
+                return 248, 244, 234
+            if caption and y < 60 and x < 160:
+                return 40, 40, 40
+            return (4 * (x + shift) % 150 + 100, y % 255, 90)
+        return self.screen(320, 240, colour)
+
+    def test_a_picture_on_paper_with_texts_is_a_card(self):
+        self.assertTrue(self.painting(paper=60).is_card())
+        self.assertFalse(self.painting(paper=60).is_painting())
+        self.assertTrue(self.painting().is_painting())
+        self.assertFalse(self.screen(320, 240).is_painting())
+
+    def test_the_next_painting_is_another_one(self):
+        first = self.painting()
+        self.assertTrue(self.painting(9).is_next_painting(first))
+        self.assertFalse(self.painting().is_next_painting(first))
+        self.assertFalse(self.painting(9, paper=60).is_next_painting(first))
+        self.assertFalse(self.painting(9).is_next_painting(self.painting(paper=60)))
+        self.assertFalse(self.screen(64, 48, lambda x, y: (4 * x, 5 * y, x + y)).is_next_painting(first))
+
+    def test_a_text_that_comes_or_goes_is_no_next_painting(self):
+        first, captioned = self.painting(), self.painting(caption=True)
+        self.assertTrue(captioned.has_caption())
+        self.assertFalse(captioned.is_next_painting(first))
+        self.assertFalse(first.is_next_painting(captioned))
+        self.assertTrue(self.painting(9, caption=True).is_next_painting(captioned))
 
     def phases(self, mode_at, moments):
         """Whether the firmware is done at each moment, where its own mode comes at `mode_at`."""

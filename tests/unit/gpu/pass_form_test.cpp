@@ -2,19 +2,29 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "hal/error.h"
+#include "pipeline/gpu/shader_library.h"
 
 namespace pleinair::gpu {
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
+namespace fs = std::filesystem;
 
 constexpr std::string_view kPass =
     "#version 310 es\n"
@@ -61,14 +71,67 @@ TEST(ComputeFormTest, RefusesOtherTargetsThanTheShaderHas) {
 }
 
 TEST(ComputeFormTest, RefusesWhatOnlyFragmentsHave) {
-  const auto withLine = [](std::string_view line) {
+  const auto withLine = [](std::string_view line, std::string_view before) {
     std::string text(kPass);
-    text.insert(text.find("  tensor"), std::string(line));
+    text.insert(text.find(before), std::string(line) + "\n");
     return computeFormOf(text, std::array{TextureFormat::kRg16f, TextureFormat::kR32ui});
   };
-  EXPECT_NO_THROW((void)withLine("  float discarded = 0.0;\n"));
-  EXPECT_THROW((void)withLine("  if (gl_FragCoord.x < 3.0) discard;\n"), hal::Failure);
-  EXPECT_THROW((void)withLine("  float slope = dFdx(gl_FragCoord.x);\n"), hal::Failure);
+  for (const char* line : {"float discarded = 0.0;", "// no discard", "int inside = 0;"}) {
+    EXPECT_NO_THROW((void)withLine(line, "  tensor")) << line;
+  }
+  for (const char* line : {"if (gl_FragCoord.x < 3.0) discard;", "float x = dFdx(1.0);"}) {
+    EXPECT_THROW((void)withLine(line, "  tensor"), hal::Failure) << line;
+  }
+  for (const char* line : {"in vec2 at;", "layout(location = 1) flat in highp uint id;"}) {
+    EXPECT_THROW((void)withLine(line, "layout(location = 0)"), hal::Failure) << line;
+  }
+}
+
+/// A full-screen pass as code asks for it.
+struct Pass {
+  std::string shader;
+  ShaderDefines defines;
+  std::size_t targets = 0;
+};
+
+/// The passes for which the code of a file names targets; their shaders lie in "shaders" beside it.
+std::vector<Pass> passesWithTargets(const fs::path& root, const fs::path& file) {
+  static const std::regex kCall(
+      R"(fragmentPass\([^"()]*"([^"]+)",\s*\{(?:\{"(\w+)"\})?\},\s*\{([^}]*)\
+}\))");
+  std::ifstream stream(file);
+const std::string code{std::istreambuf_iterator<char>(stream), {}};
+std::vector<Pass> passes;
+for (std::sregex_iterator call(code.begin(), code.end(), kCall), end; call != end; ++call) {
+  const std::string targets = (*call)[3];
+  Pass pass{.shader = (*call)[1],
+            .targets = 1 + static_cast<std::size_t>(std::ranges::count(targets, ','))};
+  if (pass.shader.find('/') == std::string::npos) {
+    pass.shader =
+        (fs::relative(file.parent_path(), root) / "shaders" / pass.shader).generic_string();
+  }
+  if ((*call)[2].matched) pass.defines.push_back({(*call)[2]});
+  passes.push_back(std::move(pass));
+}
+return passes;
+}
+
+// Drivers that run them in this form are rare; what has none is to be found without one.
+TEST(ComputeFormTest, EveryPassWithTargetsHasOne) {
+  const fs::path root = fs::path(PLEINAIR_TESTS_DIR).parent_path();
+  const ShaderLibrary library(root);
+  const std::vector<TextureFormat> formats(4, TextureFormat::kRgba8);
+  int found = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "pipeline")) {
+    if (entry.path().extension() != ".cpp") continue;
+    for (const Pass& pass : passesWithTargets(root, entry.path())) {
+      ++found;
+      EXPECT_NO_THROW((void)computeFormOf(library.expanded(pass.shader, pass.defines),
+                                          std::span(formats).first(pass.targets)))
+          << pass.shader;
+    }
+  }
+  EXPECT_GE(found, 15);
 }
 
 }  // namespace
