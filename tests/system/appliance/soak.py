@@ -40,7 +40,10 @@ def judge_sockets(machine):
     print("no socket that a network reaches", flush=True)
 
 
-def _judge(samples, logged, seconds, least_seconds):
+def _judge(samples, logged, seconds, least_seconds, folder):
+    """`samples`: (second, KiB, descriptors), which are kept as samples.txt."""
+    with open(os.path.join(folder, "samples.txt"), "w") as file:
+        file.writelines(f"{at:.0f} {memory} {descriptors}\n" for at, memory, descriptors in samples)
     try:
         soak = Soak(samples, logged, seconds)
     except ValueError as error:
@@ -96,7 +99,7 @@ def soak_chroot(tar, folder):
     shown = closing_line.ledger(said)["shown"]
     print(f"{shown} frames were shown", flush=True)
     least = seconds if shown >= CHROOT_FRAMES else 60 * CHROOT_MINUTES
-    _judge(samples, len(said), seconds, least - Soak.SETTLED)
+    _judge(samples, len(said), seconds, least - Soak.SETTLED, folder)
 
 
 def soak_machine(machine, confirmed, minutes_until):
@@ -122,4 +125,4 @@ def soak_machine(machine, confirmed, minutes_until):
         raise Failed("it no longer paints")
     first = samples[0][0]
     samples = [(at - first, memory, descriptors) for at, memory, descriptors in samples]
-    _judge(samples, len(said), samples[-1][0], 60 * MACHINE_MINUTES)
+    _judge(samples, len(said), samples[-1][0], 60 * MACHINE_MINUTES, machine.folder)

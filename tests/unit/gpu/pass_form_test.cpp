@@ -97,23 +97,22 @@ struct Pass {
 /// The passes for which the code of a file names targets; their shaders lie in "shaders" beside it.
 std::vector<Pass> passesWithTargets(const fs::path& root, const fs::path& file) {
   static const std::regex kCall(
-      R"(fragmentPass\([^"()]*"([^"]+)",\s*\{(?:\{"(\w+)"\})?\},\s*\{([^}]*)\
-}\))");
+      R"re(fragmentPass\([^"()]*"([^"]+)",\s*\{(?:\{"(\w+)"\})?\},\s*\{([^}]*)\}\))re");
   std::ifstream stream(file);
-const std::string code{std::istreambuf_iterator<char>(stream), {}};
-std::vector<Pass> passes;
-for (std::sregex_iterator call(code.begin(), code.end(), kCall), end; call != end; ++call) {
-  const std::string targets = (*call)[3];
-  Pass pass{.shader = (*call)[1],
-            .targets = 1 + static_cast<std::size_t>(std::ranges::count(targets, ','))};
-  if (pass.shader.find('/') == std::string::npos) {
-    pass.shader =
-        (fs::relative(file.parent_path(), root) / "shaders" / pass.shader).generic_string();
+  const std::string code{std::istreambuf_iterator<char>(stream), {}};
+  std::vector<Pass> passes;
+  for (std::sregex_iterator call(code.begin(), code.end(), kCall), end; call != end; ++call) {
+    const std::string targets = (*call)[3];
+    Pass pass{.shader = (*call)[1],
+              .targets = 1 + static_cast<std::size_t>(std::ranges::count(targets, ','))};
+    if (pass.shader.find('/') == std::string::npos) {
+      pass.shader =
+          (fs::relative(file.parent_path(), root) / "shaders" / pass.shader).generic_string();
+    }
+    if ((*call)[2].matched) pass.defines.push_back({(*call)[2]});
+    passes.push_back(std::move(pass));
   }
-  if ((*call)[2].matched) pass.defines.push_back({(*call)[2]});
-  passes.push_back(std::move(pass));
-}
-return passes;
+  return passes;
 }
 
 // Drivers that run them in this form are rare; what has none is to be found without one.
