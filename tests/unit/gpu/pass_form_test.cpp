@@ -130,7 +130,7 @@ TEST(ComputeFormTest, EveryPassWithTargetsHasOne) {
           << pass.shader;
     }
   }
-  EXPECT_GE(found, 15);
+  EXPECT_GE(found, 18);
 }
 
 }  // namespace
