@@ -297,7 +297,10 @@ calibration::BoardSighting idealSighting(const calibration::Board& board,
   std::normal_distribution<double> noise(0.0, 1.0);
   calibration::BoardSighting sighting{.edgeWidthPx = 1.5};
   for (std::size_t i = 0; i < board.corners().size(); ++i) {
-    const glm::dvec2 error(noise(random), noise(random));
+    // The arguments of one call have no order: gcc draws them from the last on x86, from the first
+    // on arm64.
+    const double errorY = noise(random);
+    const glm::dvec2 error(noise(random), errorY);
     const glm::dvec3 seen(cameraFromBoard * glm::dvec4(board.corners()[i], 1.0));
     if (!(seen.z > 0.0)) continue;
     const glm::dvec2 px = camera.project(seen) + noisePx * error;
