@@ -89,6 +89,7 @@ function(pleinair_library name)
 endfunction()
 
 option(PLEINAIR_ONE_PROCESS_TESTS "Run each test program in one process: where starting one is slow" OFF)
+
 # pleinair_tests(NAME KIND kind SOURCES ... [ALONE sources ...] [LIBS ...] [TIMEOUT seconds] [QUICK] [BY_SUITE])
 # A GoogleTest executable of one kind (unit, conformance, gpu, golden ...). The kind is the prefix of
 # its tests' names and their CTest label; QUICK makes the label "kind-quick", which `./dev test quick`

@@ -19,8 +19,7 @@ import sys
 import time
 
 LEAST_COLOURS = 200  # of a picture on paper; text on black has few
-OTHER_PICTURE = 0.4  # of the bytes: a painting in place of the waiting picture
-MOVED = 1e-5  # as little as a camera's clock behind a text
+MOVED = 1e-5  # of the bytes: less than the digits of a camera's clock, seen through a text's box
 FIRMWARE_SECONDS = 20  # under emulation: 7 on an idle machine, and the kernel needs longer than the rest
 LATEST_MODE = 60  # seconds; a quick machine has its mode before the first look, and then none is seen to come
 FIRMWARE_MODES = 2  # GRUB is done at 1.3 times the moment of the firmware's first mode, however slow the machine
@@ -166,7 +165,7 @@ class Screen:
 
     def is_card(self):
         """A waiting picture, or one that says why no painting comes: its texts stand on paper below a picture
-        (pipeline/present/waiting_picture.cpp)."""
+        (pipeline/present/waiting_picture.cpp). So would a painting that is all paper there, which those of vivid are not."""
         row = [self._pixel(x, int(0.94 * self.height)) for x in range(self.width // 4, 3 * self.width // 4)]
         return sum(min(each) > 200 and 0 <= each[0] - each[2] < 40 for each in row) > 0.7 * len(row)
 

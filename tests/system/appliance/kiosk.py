@@ -24,6 +24,7 @@ def _check_module():
 check = _check_module()
 ARCH = "amd64"
 CONFIRM_MINUTES = 45  # to the first painting and a minute more: 6 on an idle machine
+OTHER_PICTURE = 0.4  # of the bytes: a painting in place of the waiting picture
 SITE = b'[painting]\nlook = "line_and_wash"\n'
 
 
@@ -243,7 +244,7 @@ class Kiosk:
         firmware = check.Firmware()
         while time.monotonic() < end and self._machine.is_running():
             screen = self.screen("now")
-            if kept is None or screen.changed(kept) > check.OTHER_PICTURE or screen.kind() != kept.kind():
+            if kept is None or screen.changed(kept) > OTHER_PICTURE or screen.kind() != kept.kind():
                 kept = screen
                 shutil.copy(os.path.join(self.folder, "now.ppm"),
                             os.path.join(self.folder, f"film-{time.monotonic() - began:05.1f}.ppm"))
