@@ -1,5 +1,6 @@
 #include "hal/media/demuxer_io.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <new>
@@ -8,6 +9,7 @@
 namespace pleinair::hal::libav {
 
 DemuxerIo::DemuxerIo(FileInput file) : state_(new State{.file = std::move(file)}) {
+  state_->end = state_->file.sizeBytes();
   constexpr int kBufferBytes = 64 * 1024;
   auto* buffer = static_cast<unsigned char*>(av_malloc(kBufferBytes));
   if (buffer == nullptr) throw std::bad_alloc();
@@ -20,8 +22,11 @@ DemuxerIo::DemuxerIo(FileInput file) : state_(new State{.file = std::move(file)}
 
 int DemuxerIo::read(void* opaque, std::uint8_t* buffer, int size) {
   auto& state = *static_cast<State*>(opaque);
+  std::int64_t wanted = size;
+  if (!state.file.isStream())
+    wanted = std::clamp<std::int64_t>(state.end - state.position, 0, size);
   const std::int64_t got =
-      state.file.readAt(state.position, buffer, static_cast<std::size_t>(size));
+      wanted == 0 ? 0 : state.file.readAt(state.position, buffer, static_cast<std::size_t>(wanted));
   if (got == 0) return AVERROR_EOF;
   if (got > 0) state.position += got;
   return static_cast<int>(got);
@@ -31,12 +36,12 @@ std::int64_t DemuxerIo::seek(void* opaque, std::int64_t offset, int whence) {
   auto& state = *static_cast<State*>(opaque);
   switch (whence & ~AVSEEK_FORCE) {
     case AVSEEK_SIZE:
-      return state.file.sizeBytes();
+      return state.end;
     case SEEK_CUR:
       offset += state.position;
       break;
     case SEEK_END:
-      offset += state.file.sizeBytes();
+      offset += state.end;
       break;
     default:
       break;

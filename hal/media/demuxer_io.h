@@ -14,11 +14,14 @@ class DemuxerIo {
   explicit DemuxerIo(FileInput file);
   AVIOContext* context() { return io_.get(); }
   const FileInput& file() const { return state_->file; }
+  /// The demuxer sees the file's first `bytes`. Not of a stream.
+  void endAt(std::int64_t bytes) { state_->end = bytes; }
 
  private:
   struct State {
     FileInput file;
     std::int64_t position = 0;
+    std::int64_t end = 0;  ///< of a file that is no stream
   };
   static int read(void* opaque, std::uint8_t* buffer, int size);
   static std::int64_t seek(void* opaque, std::int64_t offset, int whence);

@@ -12,6 +12,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "tests/support/random_vectors.h"
+
 namespace pleinair::support {
 namespace {
 
@@ -297,10 +299,7 @@ calibration::BoardSighting idealSighting(const calibration::Board& board,
   std::normal_distribution<double> noise(0.0, 1.0);
   calibration::BoardSighting sighting{.edgeWidthPx = 1.5};
   for (std::size_t i = 0; i < board.corners().size(); ++i) {
-    // The arguments of one call have no order: gcc draws them from the last on x86, from the first
-    // on arm64.
-    const double errorY = noise(random);
-    const glm::dvec2 error(noise(random), errorY);
+    const glm::dvec2 error = support::randomVec2(noise, random);
     const glm::dvec3 seen(cameraFromBoard * glm::dvec4(board.corners()[i], 1.0));
     if (!(seen.z > 0.0)) continue;
     const glm::dvec2 px = camera.project(seen) + noisePx * error;

@@ -23,24 +23,46 @@ struct Box {
 
 class Scanner {
  public:
-  Scanner(const FileInput& file, std::uint32_t trackId) : file_(file), trackId_(trackId) {}
+  explicit Scanner(const FileInput& file) : file_(file) {}
 
-  Mp4Boxes scan() {
+  Mp4Boxes scan(std::uint32_t trackId) {
     Mp4Boxes result;
-    for (std::int64_t at = 0; at < file_.sizeBytes();) {
-      const std::optional<Box> box = boxAt(at);
-      if (!budgetLeft()) return {};
-      if (!box || box->end > file_.sizeBytes()) {
-        result.aborted = true;
-        return result;
-      }
-      if (box->type == fourcc("moof")) result.fragmentSamples += samplesOfMoof(*box);
-      at = box->end;
-    }
+    const Last last = forEachBox([&](const Box& box) {
+      if (box.type == fourcc("moof")) result.fragmentSamples += samplesOfMoof(box, trackId);
+    });
+    if (!budgetLeft()) return {};
+    result.aborted = last.at < file_.sizeBytes();
     return result;
   }
 
+  std::int64_t readableBytes() {
+    const Last last = forEachBox([](const Box&) {});
+    const bool isCutHead = last.type == fourcc("moof") || file_.sizeBytes() - last.at < kHeadBytes;
+    return isCutHead && last.at > 0 ? last.at : file_.sizeBytes();
+  }
+
  private:
+  /// The first box that is not whole, or the end of the file.
+  struct Last {
+    std::int64_t at = 0;
+    std::uint32_t type = 0;  ///< 0 where there is no sound size
+  };
+
+  /// Calls visit(box) for each whole box of the file.
+  template <class Visitor>
+  Last forEachBox(Visitor visit) {
+    std::int64_t at = 0;
+    while (at < file_.sizeBytes() && budgetLeft()) {
+      const std::optional<Box> box = boxAt(at);
+      if (!box) return {.at = at};
+      if (box->end > file_.sizeBytes()) return {.at = at, .type = box->type};
+      visit(*box);
+      at = box->end;
+    }
+    return {.at = at};
+  }
+
+  static constexpr std::int64_t kHeadBytes = 8;  ///< size and type
   static constexpr int kMaxBoxes = 1'000'000;
   bool budgetLeft() const { return boxesRead_ < kMaxBoxes; }
 
@@ -54,9 +76,9 @@ class Scanner {
 
   std::optional<Box> boxAt(std::int64_t at) {
     ++boxesRead_;
-    if (at + 8 > file_.sizeBytes()) return std::nullopt;
+    if (at + kHeadBytes > file_.sizeBytes()) return std::nullopt;
     std::uint64_t size = number(at, 4);
-    Box box{.type = static_cast<std::uint32_t>(number(at + 4, 4)), .payload = at + 8};
+    Box box{.type = static_cast<std::uint32_t>(number(at + 4, 4)), .payload = at + kHeadBytes};
     if (size == 1) {
       size = number(at + 8, 8);
       box.payload = at + 16;
@@ -83,7 +105,7 @@ class Scanner {
     }
   }
 
-  std::uint64_t samplesOfMoof(const Box& moof) {
+  std::uint64_t samplesOfMoof(const Box& moof, std::uint32_t trackId) {
     std::uint64_t samples = 0;
     forEachIn(moof, [&](const Box& traf) {
       if (traf.type != fourcc("traf")) return;
@@ -93,7 +115,7 @@ class Scanner {
         constexpr std::int64_t kVersionAndFlags = 4;
         if (box.end - box.payload < kVersionAndFlags + 4) return;
         const std::uint64_t value = number(box.payload + kVersionAndFlags, 4);
-        if (box.type == fourcc("tfhd")) ours = value == trackId_;
+        if (box.type == fourcc("tfhd")) ours = value == trackId;
         if (box.type == fourcc("trun")) inTraf += value;
       });
       if (ours) samples += inTraf;
@@ -102,14 +124,17 @@ class Scanner {
   }
 
   const FileInput& file_;
-  std::uint32_t trackId_;
   int boxesRead_ = 0;
 };
 
 }  // namespace
 
 Mp4Boxes scanMp4(const FileInput& file, std::uint32_t trackId) {
-  return Scanner(file, trackId).scan();
+  return Scanner(file).scan(trackId);
+}
+
+std::int64_t readableMp4Bytes(const FileInput& file) {
+  return Scanner(file).readableBytes();
 }
 
 namespace {

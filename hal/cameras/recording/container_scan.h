@@ -17,6 +17,11 @@ struct Mp4Boxes {
 /// files of more than a million boxes.
 Mp4Boxes scanMp4(const FileInput& file, std::uint32_t trackId);
 
+/// Where a demuxer of MP4 is to stop: before a last fragment's head (moof) that the end of the file
+/// cuts off, otherwise at that end. libav reads all heads first, and refuses a file for a broken
+/// one.
+std::int64_t readableMp4Bytes(const FileInput& file);
+
 /// Whether a Matroska file is truncated: it ends before the end that its Segment declares (RFC 8794
 /// §4, RFC 9559 §5.1). False if the size is unknown, as in a live stream.
 bool segmentBreaksOff(const FileInput& file);

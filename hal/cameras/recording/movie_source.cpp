@@ -78,6 +78,9 @@ Result<void> openContainer(DemuxedFile& file, const std::string& subject) {
   if (isPlaylist) {
     return tl::unexpected(broken(subject, "is a playlist or a text, not a movie"));
   }
+  if (isOneOf(format->name, "mp4") && !file.io.file().isStream()) {
+    file.io.endAt(readableMp4Bytes(file.io.file()));
+  }
   AVFormatContext* context = libav::makeDemuxer(file.io.context());
   status = avformat_open_input(&context, "", format, nullptr);  // frees the context on failure
   if (status < 0) {

@@ -14,6 +14,7 @@
 #include "pipeline/scene/builtin/builtin_gearbox.h"
 #include "pipeline/scene/scene_shaders.h"
 #include "tests/support/gl_test.h"
+#include "tests/support/random_vectors.h"
 
 namespace pleinair {
 namespace {
@@ -79,7 +80,7 @@ void expose(hal::Image& image, bool isShaded, std::mt19937& random) {
 
 glm::dvec3 direction(std::mt19937& random) {
   std::normal_distribution<double> normal;
-  return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+  return glm::normalize(support::randomVec3(normal, random));
 }
 
 /// Off by 0.3 mm and 0.25° about a point.

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/gpu/marks/image_motion_fixture.h"
+#include "tests/support/random_vectors.h"
 
 namespace pleinair::marks {
 namespace {
@@ -36,7 +37,7 @@ class ParallaxTest : public ImageMotionTest {
     for (std::size_t i = 0; i < count; ++i) {
       const glm::dvec2 then = anywhere();
       const glm::dvec2 shift = hasParallax ? truth(then) : kPictureShift;
-      steps.push_back({then, then + shift + glm::dvec2(noise(random_), noise(random_))});
+      steps.push_back({then, then + shift + support::randomVec2(noise, random_)});
     }
     return told(steps, static_cast<float>(kNoisePx));
   }

@@ -22,6 +22,7 @@
 #include "pipeline/styles/strokes/strokes_shaders.h"
 #include "tests/oracles/stroke_oracle.h"
 #include "tests/support/gl_test.h"
+#include "tests/support/random_vectors.h"
 
 namespace pleinair::styles {
 namespace {
@@ -73,7 +74,7 @@ TEST_F(SplineTest, PointsAreTheOracles) {
   for (Instance& each : instances) {
     glm::vec2 at(100.0F + 10.0F * step(random), 100.0F);
     for (glm::vec2& point : each.points) {
-      at += glm::vec2(8.0F + step(random), step(random));
+      at += glm::vec2(8.0F, 0.0F) + glm::vec2(support::randomVec2(step, random));
       point = at;
     }
   }

@@ -14,6 +14,7 @@
 
 #include "tests/gpu/scene/scene_gl_test.h"
 #include "tests/gpu/scene/two_poses.h"
+#include "tests/support/random_vectors.h"
 
 namespace pleinair::scene {
 namespace {
@@ -88,8 +89,8 @@ TEST_F(PlaneMotion, PredictsItsError) {
     const double a = normal(random);
     const double b = 0.5 * a + std::sqrt(0.75) * normal(random);
     const glm::dvec3 turn(sigma[0] * a, sigma[1] * b, sigma[2] * normal(random));
-    const glm::dvec3 shift(sigma[3] * normal(random), sigma[4] * normal(random),
-                           sigma[5] * normal(random));
+    const glm::dvec3 shift =
+        glm::dvec3(sigma[3], sigma[4], sigma[5]) * support::randomVec3(normal, random);
     const glm::dvec3 origin(pose[3]);
     const glm::dmat4 about = glm::rotate(glm::translate(glm::dmat4(1.0), origin + shift),
                                          glm::length(turn), glm::normalize(turn)) *

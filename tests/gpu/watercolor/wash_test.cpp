@@ -5,6 +5,7 @@
 #include "pipeline/styles/watercolor/watercolor_parameters.h"
 #include "tests/gpu/watercolor/watercolor_fixture.h"
 #include "tests/oracles/watercolor_oracle.h"
+#include "tests/support/random_vectors.h"
 
 namespace pleinair::styles {
 namespace {
@@ -200,7 +201,7 @@ double WashTest::noiseGain(Watercolor& style) {
       const glm::dvec3 base = disc     ? glm::dvec3(0.8, 0.45, 0.2)
                               : stripe ? glm::dvec3(0.2, 0.2, 0.25)
                                        : glm::dvec3(0.4 + 0.002 * x, 0.6, 0.5);
-      return glm::clamp(base + glm::dvec3(noise(random), noise(random), noise(random)), 0.0, 1.0);
+      return glm::clamp(base + support::randomVec3(noise, random), 0.0, 1.0);
     });
     const gpu::Texture picture = textureOf(seen.view());
     tracking::ImageMotion motion;

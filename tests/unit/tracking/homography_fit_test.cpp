@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/tracking/image/homography.h"
+#include "tests/support/random_vectors.h"
 #include "tests/support/textured_plane.h"
 
 namespace pleinair::tracking {
@@ -21,10 +22,11 @@ std::vector<PointPair> pairsOf(const glm::dmat3& truth, std::size_t count, doubl
   std::normal_distribution<double> normal(0.0, errorPx / std::sqrt(2.0));
   std::vector<PointPair> pairs;
   for (std::size_t i = 0; i < count; ++i) {
-    const glm::dvec2 previous(part(random) * kSize.width, part(random) * kSize.height);
+    const glm::dvec2 previous =
+        support::randomVec2(part, random) * glm::dvec2(kSize.width, kSize.height);
     const bool isWrong = part(random) < wrongPart;
     const glm::dvec2 away = isWrong ? glm::dvec2(90.0 * (part(random) - 0.5), 30.0)
-                                    : glm::dvec2(normal(random), normal(random));
+                                    : support::randomVec2(normal, random);
     pairs.push_back(
         {.previous = previous, .current = movedBy(truth, previous) + away, .errorPx = errorPx});
   }

@@ -61,9 +61,10 @@ TEST(PoseCovariance, SaysHowLargeErrorsAre) {
   Ratio filtered;
   Ratio world;
   for (int i = 0; i < 16; ++i) {
+    const glm::dvec3 place{0.1 * uniform(random), 0.08 * uniform(random),
+                           0.55 + 0.1 * uniform(random)};
     const glm::dmat4 truth =
-        poseOf({0.6 + 0.2 * uniform(random), 0.3 * uniform(random), uniform(random)},
-               {0.1 * uniform(random), 0.08 * uniform(random), 0.55 + 0.1 * uniform(random)});
+        poseOf({0.6 + 0.2 * uniform(random), 0.3 * uniform(random), uniform(random)}, place);
     const support::SceneTag tag{.id = 4, .edgeMetres = kEdge, .worldFromTag = truth};
     Tracker loose(webcam(), {{.id = 4, .edgeMetres = kEdge}});
     Tracker placed(webcam(), {{.id = 4, .edgeMetres = kEdge, .worldFromTag = worldFromTag}});

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/support/random_vectors.h"
 #include "tests/support/tag_scene.h"
 
 namespace pleinair::tracking {
@@ -28,9 +29,7 @@ class NoisyTag {
   }
 
  private:
-  glm::dvec3 vector(double sigma) {
-    return sigma * glm::dvec3(normal_(random_), normal_(random_), normal_(random_));
-  }
+  glm::dvec3 vector(double sigma) { return sigma * support::randomVec3(normal_, random_); }
   std::mt19937 random_{11};
   std::normal_distribution<double> normal_;
 };

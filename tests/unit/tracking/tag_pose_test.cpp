@@ -9,6 +9,7 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/support/random_vectors.h"
 #include "tests/support/tag_scene.h"
 
 namespace pleinair::tracking {
@@ -27,7 +28,7 @@ CameraModel webcam() {
 
 TagCornersPx withNoise(TagCornersPx corners, double sigmaPx, std::mt19937& random) {
   std::normal_distribution<double> noise(0.0, sigmaPx);
-  for (glm::dvec2& corner : corners) corner += glm::dvec2(noise(random), noise(random));
+  for (glm::dvec2& corner : corners) corner += support::randomVec2(noise, random);
   return corners;
 }
 

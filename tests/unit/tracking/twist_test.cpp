@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/support/random_vectors.h"
 #include "tests/support/tag_scene.h"
 
 namespace pleinair::tracking {
@@ -41,9 +42,7 @@ TEST(Twist, ACovarianceIsSeenFromAnotherPoint) {
   const PoseCovariance predicted = atPoint(ofWorld, arm);
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
-  const auto vector = [&](double sigma) {
-    return sigma * glm::dvec3(normal(random), normal(random), normal(random));
-  };
+  const auto vector = [&](double sigma) { return sigma * support::randomVec3(normal, random); };
   std::array<double, 36> sums{};
   constexpr int kDraws = 20000;
   for (int i = 0; i < kDraws; ++i) {

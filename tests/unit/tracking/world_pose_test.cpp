@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/tracking/pose/tag_pose.h"
+#include "tests/support/random_vectors.h"
 #include "tests/support/tag_scene.h"
 
 namespace pleinair::tracking {
@@ -41,7 +42,7 @@ std::vector<WorldTag> seen(const CameraModel& camera, const std::vector<PlacedTa
     WorldTag tag{.worldFromTag = each.worldFromTag, .edgeMetres = each.edgeMetres};
     tag.corners = support::trueCorners(camera, cameraFromWorld * each.worldFromTag * each.movedBy,
                                        each.edgeMetres);
-    for (glm::dvec2& px : tag.corners) px += noisePx * glm::dvec2(noise(random), noise(random));
+    for (glm::dvec2& px : tag.corners) px += noisePx * support::randomVec2(noise, random);
     tag.candidates = tagPoseCandidates(camera, tag.corners, tag.edgeMetres);
     tags.push_back(std::move(tag));
   }

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <map>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@
 namespace pleinair::hal {
 namespace {
 
-constexpr int kFrames = 130;  // three fragments of 60
+constexpr int kFrames = 130;
 constexpr FrameSize kSize{64, 48};
 
 std::string readAll(const std::filesystem::path& path) {
@@ -27,13 +28,38 @@ void writeAll(const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-class Aborted : public testing::TestWithParam<std::string> {
+struct Box {
+  std::size_t at;
+  std::size_t bytes;
+  std::string type;
+};
+
+std::vector<Box> boxesOf(const std::string& mp4) {
+  std::vector<Box> boxes;
+  for (std::size_t at = 0; at + 8 <= mp4.size();) {
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < 4; ++i) size = size << 8 | static_cast<unsigned char>(mp4[at + i]);
+    if (size < 8) break;
+    boxes.push_back({.at = at, .bytes = size, .type = mp4.substr(at + 4, 4)});
+    at += size;
+  }
+  return boxes;
+}
+
+std::string layoutOf(const std::string& mp4) {
+  std::string layout;
+  for (const Box& box : boxesOf(mp4)) {
+    layout += " " + box.type + "@" + std::to_string(box.at) + "+" + std::to_string(box.bytes);
+  }
+  return layout;
+}
+
+class Aborted : public testing::Test {
  protected:
-  void SetUp() override {
-    whole_ = folder_.path() / ("whole." + GetParam());
-    support::writeMedia(whole_, kFrames, kSize);
-    bytes_ = readAll(whole_);
-    const Result<support::Played> played = support::play(whole_);
+  void record(const std::filesystem::path& whole) {
+    support::writeMedia(whole, kFrames, kSize);
+    bytes_ = readAll(whole);
+    const Result<support::Played> played = support::play(whole);
     ASSERT_TRUE(played) << played.error().message();
     ASSERT_EQ(played->frames.size(), static_cast<std::size_t>(kFrames));
     for (std::size_t i = 0; i < played->frames.size(); ++i) {
@@ -51,18 +77,24 @@ class Aborted : public testing::TestWithParam<std::string> {
   }
 
   support::TemporaryFolder folder_;
-  std::filesystem::path whole_;
   std::string bytes_;
   std::map<Duration, std::uint64_t> sound_;
 };
 
-TEST_P(Aborted, GivesItsSoundFramesAndSaysSo) {
+class AbortedRecording : public Aborted, public testing::WithParamInterface<std::string> {
+ protected:
+  void SetUp() override { record(folder_.path() / ("whole." + GetParam())); }
+};
+
+TEST_P(AbortedRecording, GivesItsSoundFramesAndSaysSo) {
   const auto cut = folder_.path() / ("cut." + GetParam());
   std::size_t longest = 0;
   for (int tenth = 0; tenth < 10; ++tenth) {
-    SCOPED_TRACE(tenth);
     // 11 bytes beyond the round number: inside a frame, a box or a block.
-    writeAll(cut, bytes_.substr(0, bytes_.size() * static_cast<unsigned>(tenth) / 10 + 11));
+    const std::size_t bytes = bytes_.size() * static_cast<unsigned>(tenth) / 10 + 11;
+    SCOPED_TRACE(testing::Message() << bytes << " bytes of " << bytes_.size()
+                                    << (GetParam() == "mp4" ? layoutOf(bytes_) : ""));
+    writeAll(cut, bytes_.substr(0, bytes));
     const Result<support::Played> played = support::play(cut);
     if (!played) {
       EXPECT_EQ(played.error().kind, ErrorKind::kInvalidInput) << played.error().message();
@@ -80,7 +112,34 @@ TEST_P(Aborted, GivesItsSoundFramesAndSaysSo) {
   EXPECT_GT(longest, 50u);
 }
 
-TEST_P(Aborted, SurvivesDamageAnywhere) {
+// A recorder whose power was cut.
+TEST_F(Aborted, WithinTheHeadOfALaterFragmentGivesTheFragmentsBefore) {
+  const std::filesystem::path whole = folder_.path() / "whole.mp4";
+  const std::filesystem::path cut = folder_.path() / "cut.mp4";
+  record(whole);
+  std::size_t heads = 0;
+  for (const Box& box : boxesOf(bytes_)) {
+    if (box.type != "moof" || heads++ == 0) continue;
+    writeAll(cut, bytes_.substr(0, box.at));
+    const Result<support::Played> before = support::play(cut);
+    ASSERT_TRUE(before) << before.error().message();
+    for (std::size_t bytes = 1; bytes < box.bytes; bytes += 27) {
+      SCOPED_TRACE(testing::Message()
+                   << bytes << " bytes of the head at " << box.at << layoutOf(bytes_));
+      writeAll(cut, bytes_.substr(0, box.at + bytes));
+      const Result<support::Played> played = support::play(cut);
+      ASSERT_TRUE(played) << played.error().message();
+      EXPECT_EQ(played->frames.size(), before->frames.size());
+      expectSound(*played);
+      const auto* end = std::get_if<EndOfStream>(&played->ending);
+      ASSERT_NE(end, nullptr);
+      EXPECT_TRUE(end->truncated);
+    }
+  }
+  EXPECT_GE(heads, 3u);
+}
+
+TEST_P(AbortedRecording, SurvivesDamageAnywhere) {
   const auto damaged = folder_.path() / ("damaged." + GetParam());
   for (unsigned seed = 1; seed <= 25; ++seed) {
     SCOPED_TRACE(seed);
@@ -101,7 +160,7 @@ TEST_P(Aborted, SurvivesDamageAnywhere) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Aborted, testing::Values("mp4", "mkv", "y4m"),
+INSTANTIATE_TEST_SUITE_P(Kinds, AbortedRecording, testing::Values("mp4", "mkv", "y4m"),
                          [](const auto& kind) { return kind.param; });
 
 TEST(BrokenFolder, LeavesBrokenPicturesOutAndCountsThem) {
