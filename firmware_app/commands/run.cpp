@@ -345,9 +345,10 @@ int run(const RunOptions& options) {
              notice ? std::function<std::string()>([&notice] { return notice->text(); }) : nullptr,
          .steadyMark = steadyMark(),
          .siteOrigin = site ? site->provisioned.origin : std::string(),
-         .isToStartAnew = site && site->watch
-                              ? std::function<bool()>([&site] { return site->watch->hasChanged(); })
-                              : nullptr,
+         .isToStartAnew = site && site->watch ? std::function<bool()>([&site] {
+           return site->watch->hasChanged(!site->provisioned.problems.empty());
+         })
+                                              : nullptr,
          .serviceManager = serviceManager.isThere() ? &serviceManager : nullptr,
          .reload = [&]() -> Reload { return reloaded(request, configuration, painting); }});
   });

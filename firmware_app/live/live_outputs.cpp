@@ -183,8 +183,11 @@ void LiveOutputs::finish() {
 void LiveOutputs::reportKeeping() {
   const std::optional<hal::Error> failure = screens_.takeFailure();
   if (!failure) return;
+  // A full disk fails each time.
+  const std::string before = std::exchange(keepingProblem_, failure->message());
+  if (keepingProblem_ == before) return;
   reporter_.interrupt();
-  spdlog::warn("the last painting: {}", failure->message());
+  spdlog::warn("the last painting: {}", keepingProblem_);
 }
 
 std::vector<OutputProgress> LiveOutputs::progress() const {

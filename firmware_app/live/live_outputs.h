@@ -81,6 +81,7 @@ class LiveOutputs {
   const LiveJob& job_;
   runtime::LivePipeline& pipeline_;
   LiveReporter& reporter_;
+  std::string keepingProblem_;  ///< the last one of keeping the last painting
   runtime::FrameLog* log_;
   hal::StreamFormat stream_;
   bool isStreamKnown_ = false;

@@ -163,8 +163,10 @@ class LivePainting {
     followSite();
     followProcedure();
     if (!outputs_.isUpdateDue()) return;
-    const auto painting = paintStatus();
-    outputs_.update({.camera = pipeline_.capture().status(),
+    const auto painting = progress();
+    const auto camera = pipeline_.capture().status();
+    followRate(camera);
+    outputs_.update({.camera = camera,
                      .hasBegun = hasBegun_,
                      .hasPainter = painting.hasPainter,
                      .isRenewing = painting.isRenewing,
@@ -173,7 +175,7 @@ class LivePainting {
 
   /// A hot machine that slowed itself down would lose frames.
   void followHeat() {
-    const auto advice = health_.update(paintStatus().quality, job_.clock->now());
+    const auto advice = health_.update(progress().quality, job_.clock->now());
     if (!advice) return;
     if (pipeline() != nullptr) pipeline_.paint().limitQuality(advice->best);
     if (!advice->notice.empty()) notify(advice->notice, advice->isGood);
@@ -195,18 +197,27 @@ class LivePainting {
     notify("preparing to paint in the style " + style, true);
   }
 
-  runtime::PaintStage::Status paintStatus() {
-    return pipeline() == nullptr ? runtime::PaintStage::Status() : pipeline_.paint().status();
+  runtime::PaintStage::Progress progress() {
+    return pipeline() == nullptr ? runtime::PaintStage::Progress() : pipeline_.paint().progress();
+  }
+
+  /// A camera may come back with another rate.
+  void followRate(const runtime::CaptureStage::Status& camera) {
+    if (pipeline() == nullptr || !camera.format) return;
+    if (camera.format->framePeriod == stream_.framePeriod) return;
+    stream_.framePeriod = camera.format->framePeriod;
+    pipeline_.paint().setFramePeriod(paintRules(job_.runtime, stream_).framePeriod);
   }
 
   void reportToService() {
-    const auto painting = paintStatus();
+    const auto painting = progress();
     const runtime::RuntimeStatus status = status_.now();
     const bool isStreaming = status.camera.state == hal::CameraState::kStreaming;
-    const std::vector<OutputProgress> progress = outputs_.progress();
-    steady_.update(progress, job_.clock->now());
-    service_->update({.outputs = progress,
+    const std::vector<OutputProgress> shown = outputs_.progress();
+    steady_.update(shown, job_.clock->now());
+    service_->update({.outputs = shown,
                       .expectsPaintings = hasBegun_ && isStreaming && painting.hasPainter,
+                      .arrived = status.camera.arrived,
                       .painted = painting.painted},
                      hasBegun_ ? runtime::statusLine(status, qualityNames()) : startingText(status),
                      job_.clock->now());

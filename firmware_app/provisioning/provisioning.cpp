@@ -184,14 +184,15 @@ SiteWatch::SiteWatch(const ProvisioningPlaces& places, hal::Duration interval)
             std::string now = fingerprintOfPlaces(folders);
             last.times = now == last.fingerprint ? last.times + 1 : 1;
             last.fingerprint = std::move(now);
+            last.wasGone = last.wasGone || last.fingerprint.empty();
             return last;
           },
           interval) {}
 
-bool SiteWatch::hasChanged() const {
+bool SiteWatch::hasChanged(bool hadProblems) const {
   const auto look = looks_.latest();
-  return look && look->value.times >= 2 && !look->value.fingerprint.empty() &&
-         look->value.fingerprint != first_;
+  if (!look || look->value.times < 2 || look->value.fingerprint.empty()) return false;
+  return look->value.fingerprint != first_ || (hadProblems && look->value.wasGone);
 }
 
 std::uint64_t SiteWatch::looks() const {

@@ -65,8 +65,9 @@ class SiteWatch {
   explicit SiteWatch(const ProvisioningPlaces& places, hal::Duration interval = kInterval);
 
   /// Whether a place has something else than at first, and has had it for two looks: it is no
-  /// longer being written. Nothing is changed by a medium that goes.
-  bool hasChanged() const;
+  /// longer being written; or the same as at first again, after it was gone, where `hadProblems`:
+  /// it may have been pulled while it was read. Nothing is changed by a medium that goes.
+  bool hasChanged(bool hadProblems = false) const;
   /// How often it has looked.
   std::uint64_t looks() const;
 
@@ -74,6 +75,7 @@ class SiteWatch {
   struct Seen {
     std::string fingerprint;
     int times = 0;
+    bool wasGone = false;  ///< nothing was there at some look
   };
   std::string first_;
   hal::RepeatedReading<Seen> looks_;

@@ -9,7 +9,6 @@
 namespace pleinair::hal::libav {
 
 DemuxerIo::DemuxerIo(FileInput file) : state_(new State{.file = std::move(file)}) {
-  state_->end = state_->file.sizeBytes();
   constexpr int kBufferBytes = 64 * 1024;
   auto* buffer = static_cast<unsigned char*>(av_malloc(kBufferBytes));
   if (buffer == nullptr) throw std::bad_alloc();
@@ -23,8 +22,7 @@ DemuxerIo::DemuxerIo(FileInput file) : state_(new State{.file = std::move(file)}
 int DemuxerIo::read(void* opaque, std::uint8_t* buffer, int size) {
   auto& state = *static_cast<State*>(opaque);
   std::int64_t wanted = size;
-  if (!state.file.isStream())
-    wanted = std::clamp<std::int64_t>(state.end - state.position, 0, size);
+  if (state.end) wanted = std::clamp<std::int64_t>(*state.end - state.position, 0, size);
   const std::int64_t got =
       wanted == 0 ? 0 : state.file.readAt(state.position, buffer, static_cast<std::size_t>(wanted));
   if (got == 0) return AVERROR_EOF;
@@ -36,12 +34,12 @@ std::int64_t DemuxerIo::seek(void* opaque, std::int64_t offset, int whence) {
   auto& state = *static_cast<State*>(opaque);
   switch (whence & ~AVSEEK_FORCE) {
     case AVSEEK_SIZE:
-      return state.end;
+      return state.end.value_or(state.file.sizeBytes());
     case SEEK_CUR:
       offset += state.position;
       break;
     case SEEK_END:
-      offset += state.end;
+      offset += state.end.value_or(state.file.sizeBytes());
       break;
     default:
       break;

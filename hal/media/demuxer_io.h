@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "hal/media/file_input.h"
 #include "hal/media/handles.h"
@@ -14,14 +15,15 @@ class DemuxerIo {
   explicit DemuxerIo(FileInput file);
   AVIOContext* context() { return io_.get(); }
   const FileInput& file() const { return state_->file; }
-  /// The demuxer sees the file's first `bytes`. Not of a stream.
+  /// Sets the size that the demuxer is told, and where reads end. What is buffered already stays
+  /// readable. Not of a stream.
   void endAt(std::int64_t bytes) { state_->end = bytes; }
 
  private:
   struct State {
     FileInput file;
     std::int64_t position = 0;
-    std::int64_t end = 0;  ///< of a file that is no stream
+    std::optional<std::int64_t> end;  ///< unset: the file's own
   };
   static int read(void* opaque, std::uint8_t* buffer, int size);
   static std::int64_t seek(void* opaque, std::int64_t offset, int whence);

@@ -4,6 +4,7 @@
 #include <new>
 #include <vector>
 
+#include "hal/media/container_scan.h"
 #include "hal/pixel_format.h"
 
 namespace pleinair::hal::libav {
@@ -28,6 +29,12 @@ class OpeningDeadline {
 };
 
 }  // namespace
+
+void leaveOutCutHead(DemuxerIo& io, const AVInputFormat& format) {
+  if (io.file().isStream() || av_match_name("mp4", format.name) == 0) return;
+  const std::int64_t readable = readableMp4Bytes(io.file());
+  if (readable < io.file().sizeBytes()) io.endAt(readable);
+}
 
 AVFormatContext* makeDemuxer(AVIOContext* io) {
   AVFormatContext* context = avformat_alloc_context();

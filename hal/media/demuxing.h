@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "hal/clock.h"
+#include "hal/media/demuxer_io.h"
 #include "hal/media/handles.h"
 
 namespace pleinair::hal::libav {
@@ -13,6 +14,10 @@ namespace pleinair::hal::libav {
 /// A context that reads from `io` only, opens no other file, and finds 64 streams at most.
 /// avformat_open_input() frees it on failure.
 AVFormatContext* makeDemuxer(AVIOContext* io);
+
+/// Has libav's MP4 demuxer leave out a last fragment's head that the file's end cuts off: it reads
+/// all heads first, and refuses the whole file for a broken one. Before avformat_open_input().
+void leaveOutCutHead(DemuxerIo& io, const AVInputFormat& format);
 
 /// As avformat_find_stream_info(), within 10 seconds and the limits of frames' sizes.
 int findStreamInfo(AVFormatContext& context);

@@ -70,6 +70,7 @@ void CaptureStage::handOn(hal::CapturedFrame frame) {
       ledger_.count(Outcome::kStarting);
       return;
     }
+    ++status_.arrived;
   }
   const FrameLedger::Ticket ticket = ledger_.open();
   const auto replaced = frames_.put({std::move(frame), ticket, now});

@@ -44,6 +44,7 @@ class CaptureStage {
     std::string lastLoss;  ///< reason of the last loss; empty: none so far
     std::optional<hal::CameraIdentity> camera;
     std::optional<hal::StreamFormat> format;  ///< the last one announced
+    std::uint64_t arrived = 0;                ///< frames that were let through to the painter
     double perSecond = 0.0;
     std::uint64_t stalls = 0, losses = 0, opens = 0;
     hal::LinkCounts link;                ///< packets of all its openings

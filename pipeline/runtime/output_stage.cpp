@@ -99,7 +99,8 @@ void OutputStage::submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoi
   const OutputFrame& filled = *buffers_.at(buffer);
   const bool isOutdated = filled.surface ? !lending_.isCurrent(*filled.surface)
                                          : filled.image.format() != format_.frame;
-  if (status_.isFinal || isOutdated) {
+  // While it fails, frames would fill the queue, and each of its buffers is kept for good.
+  if (status_.isFailed || isOutdated) {
     end(frame, Outcome::kOutputFailed);
     return;
   }

@@ -422,6 +422,11 @@ void PaintStage::renew() {
   wake();
 }
 
+void PaintStage::setFramePeriod(std::optional<hal::Duration> period) {
+  const std::scoped_lock lock(mutex_);
+  options_.framePeriod = period;
+}
+
 void PaintStage::limitQuality(std::size_t best) {
   const std::scoped_lock lock(mutex_);
   governor_.limit(best, clock_.now());
@@ -454,6 +459,14 @@ void PaintStage::stop() {
   busy_ = 0;
 }
 
+PaintStage::Progress PaintStage::progress() const {
+  const std::scoped_lock lock(mutex_);
+  return {.quality = governor_.level(),
+          .painted = painted_,
+          .hasPainter = hasPainter_,
+          .isRenewing = isRenewing_};
+}
+
 PaintStage::Status PaintStage::status() const {
   const std::scoped_lock lock(mutex_);
   Status status{.quality = governor_.level(),
@@ -475,6 +488,7 @@ PaintStage::Status PaintStage::status() const {
                 .passes = passes_,
                 .cameraPath = cameraPath_};
   const hal::TimePoint now = clock_.now();
+  status.stages.reserve(stages_.size());
   for (std::size_t i = 0; i < stages_.size(); ++i) {
     const RecentDurations& each = stages_.at(i);
     status.stages.push_back({kStageNames.at(i), each.recent(now), each.count(), each.sum()});

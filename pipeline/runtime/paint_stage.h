@@ -73,6 +73,9 @@ class PaintStage {
   /// until it is there; those in flight are finished by the old one. Any thread.
   void renew();
 
+  /// Another time budget of a frame (PaintStageOptions), from the next frame on. Any thread.
+  void setFramePeriod(std::optional<hal::Duration> period);
+
   /// Permits this quality level and lower ones only, from the next frame on; 0: all. A level that
   /// is kept stays. Any thread.
   void limitQuality(std::size_t best);
@@ -105,6 +108,14 @@ class PaintStage {
     std::optional<CameraPath> cameraPath;  ///< of frames to the GPU, once one was painted
   };
   Status status() const;
+  /// What is asked many times a second, without the histograms.
+  struct Progress {
+    std::size_t quality = 0;
+    std::uint64_t painted = 0;
+    bool hasPainter = false;
+    bool isRenewing = false;
+  };
+  Progress progress() const;
 
  private:
   /// A frame that is being painted.
@@ -155,7 +166,7 @@ class PaintStage {
   PainterFactory factory_;
   std::vector<Output> outputs_;
   std::size_t nextId_ = 0;
-  PaintStageOptions options_;
+  PaintStageOptions options_;  ///< the mutex guards its framePeriod
   hal::Clock& clock_;
   FrameLedger& ledger_;
   Mailbox<ArrivedFrame>& frames_;

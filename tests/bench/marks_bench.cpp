@@ -22,6 +22,7 @@
 #include "tests/reports/tracking/pose_measures.h"
 #include "tests/reports/tracking/truth_sequence.h"
 #include "tests/support/many_parts.h"
+#include "tests/support/random_vectors.h"
 
 namespace {
 
@@ -40,8 +41,8 @@ struct Motion {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> part(0.0F, 1.0F);
     for (std::uint32_t i = 0; i < kFeatures; ++i) {
-      const glm::vec2 at(part(random) * static_cast<float>(size.width),
-                         part(random) * static_cast<float>(size.height));
+      const glm::vec2 at = glm::vec2(support::randomVec2(part, random)) *
+                           glm::vec2(size.width, size.height);
       features.push_back({.id = i, .previous = at, .current = at + kPan, .errorPx = 0.1F});
     }
     image.features = features;

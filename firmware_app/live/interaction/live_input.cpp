@@ -102,7 +102,7 @@ bool LiveInput::poll(runtime::LivePipeline* pipeline, std::optional<hal::TimePoi
   const bool hasReturned = followConsole();
   const bool hasStepped = handleSteps();
   Presence::Seen seen{.anyKey = handleKeys(pipeline) || hasStepped, .movedAt = movedAt};
-  if (pipeline != nullptr) seen.painted = pipeline->paint().status().painted;
+  if (pipeline != nullptr) seen.painted = pipeline->paint().progress().painted;
   if (presence_.update(seen) && pipeline != nullptr) {
     for (std::size_t i = 0; i < pipeline->outputCount(); ++i) pipeline->output(i).noteActivity();
   }

@@ -65,8 +65,22 @@ void Screens::update(const LiveProgress& progress) {
   if (progress.hasBegun && store_.isDue(now)) keep(now);
 }
 
+/// A display that is off shows none: the same one is not written again.
 void Screens::keep(hal::TimePoint now) {
-  if (auto painting = lastPainting()) store_.save(*std::move(painting), now);
+  const std::uint64_t shown = paintingsShown();
+  if (shown == kept_) return;
+  if (auto painting = lastPainting()) {
+    kept_ = shown;
+    store_.save(*std::move(painting), now);
+  }
+}
+
+std::uint64_t Screens::paintingsShown() const {
+  std::uint64_t shown = 0;
+  for (const Screen& each : screens_) {
+    if (each.keepsPainting) shown += each.stage->status().presented;
+  }
+  return shown;
 }
 
 void Screens::finish() {

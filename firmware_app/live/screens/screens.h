@@ -67,6 +67,7 @@ class Screens {
   void draw(Screen& screen, const Drawn& wanted);
   void show(Screen& screen, bool fades) const;
   void keep(hal::TimePoint now);
+  std::uint64_t paintingsShown() const;
   std::optional<hal::Image> lastPainting() const;
   static std::optional<hal::Image> uprightFrameOf(const runtime::OutputStage& stage);
 
@@ -75,6 +76,7 @@ class Screens {
   std::uint64_t frames_ = 0;  ///< that were drawn washed out
   LastPainting store_;
   std::optional<hal::Image> last_;  ///< the one of the run before
+  std::uint64_t kept_ = 0;          ///< paintingsShown(), when one was last kept
   std::optional<hal::Error> failure_;
   const hal::Clock& clock_;
   hal::Duration renewal_{0};

@@ -34,7 +34,8 @@ std::string absenceOf(const runtime::CaptureStage::Status& camera, const std::st
 
 void WaitingState::update(const LiveProgress& progress, hal::TimePoint now) {
   const Awaited next = awaitedBy(progress);
-  if (next != awaited_ || progress.painted != painted_) since_ = now;
+  if (next != awaited_ || progress.painted != painted_) arrived_ = progress.camera.arrived;
+  if (progress.camera.arrived == arrived_) since_ = now;
   awaited_ = next;
   painted_ = progress.painted;
   isOver_ = hasEnded(progress.camera);

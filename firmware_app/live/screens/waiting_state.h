@@ -16,7 +16,7 @@ enum class Awaited {
   kPainter,      ///< that is made, for the first time or for another style
   kCameraAgain,  ///< that was lost or is silent
   kGpu,          ///< that was lost
-  kPace,         ///< the camera streams, but nothing is painted in time
+  kPace,         ///< frames come, but nothing is painted in time
 };
 
 /// What is known of the live pipeline.
@@ -41,7 +41,8 @@ class WaitingState {
   Awaited awaited_ = Awaited::kCamera;
   bool isOver_ = false;  ///< no more frames come
   std::uint64_t painted_ = 0;
-  hal::TimePoint since_;  ///< when these changed
+  std::uint64_t arrived_ = 0;  ///< frames, when these changed
+  hal::TimePoint since_;       ///< when these changed, or no frame had come since
 };
 
 /// What a picture says meanwhile. `choice`: the camera that was asked for.

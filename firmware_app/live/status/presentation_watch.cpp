@@ -16,7 +16,9 @@ OutputProgress progressOf(const runtime::OutputStage::Status& output, bool isScr
 }
 
 void PresentationWatch::update(Seen seen, hal::TimePoint now) {
-  if (!seen.expectsPaintings || seen.painted != painted_) paintedAt_ = now;
+  const bool hasPainted = seen.painted != painted_;
+  if (hasPainted || !seen.expectsPaintings) arrivedBefore_ = seen.arrived;
+  if (seen.arrived == arrivedBefore_) paintedAt_ = now;
   painted_ = seen.painted;
   seen_ = std::move(seen);
   now_ = now;

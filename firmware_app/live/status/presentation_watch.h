@@ -37,6 +37,7 @@ class PresentationWatch {
   struct Seen {
     std::vector<OutputProgress> outputs;
     bool expectsPaintings = false;  ///< the camera streams, and there is a painter
+    std::uint64_t arrived = 0;      ///< frames for the painter; a camera may wait for a trigger
     std::uint64_t painted = 0;
   };
   void update(Seen seen, hal::TimePoint now);
@@ -54,8 +55,9 @@ class PresentationWatch {
   Seen seen_;
   std::map<std::string, OutputProgress> before_;  ///< at the last progress
   std::uint64_t painted_ = 0;
+  std::uint64_t arrivedBefore_ = 0;  ///< when it last painted
   hal::TimePoint now_;
-  hal::TimePoint paintedAt_;  ///< or since when none is expected
+  hal::TimePoint paintedAt_;  ///< or when none was expected yet
 };
 
 }  // namespace pleinair::app

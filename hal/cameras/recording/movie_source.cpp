@@ -8,11 +8,11 @@
 #include <string_view>
 #include <utility>
 
-#include "hal/cameras/recording/container_scan.h"
 #include "hal/cameras/recording/frame_source.h"
 #include "hal/captures/capture_tags.h"
 #include "hal/captures/frame_facts.h"
 #include "hal/captures/stored_pixels.h"
+#include "hal/media/container_scan.h"
 #include "hal/media/demuxer_io.h"
 #include "hal/media/demuxing.h"
 #include "hal/media/errors.h"
@@ -78,9 +78,7 @@ Result<void> openContainer(DemuxedFile& file, const std::string& subject) {
   if (isPlaylist) {
     return tl::unexpected(broken(subject, "is a playlist or a text, not a movie"));
   }
-  if (isOneOf(format->name, "mp4") && !file.io.file().isStream()) {
-    file.io.endAt(readableMp4Bytes(file.io.file()));
-  }
+  libav::leaveOutCutHead(file.io, *format);
   AVFormatContext* context = libav::makeDemuxer(file.io.context());
   status = avformat_open_input(&context, "", format, nullptr);  // frees the context on failure
   if (status < 0) {
@@ -160,7 +158,7 @@ class MovieSource final : public FrameSource {
         decoder_(std::move(decoder)),
         bounds_(std::move(bounds)) {
     if (isMp4()) {
-      boxes_ = scanMp4(file_.io.file(), static_cast<std::uint32_t>(file_.stream->id));
+      boxes_ = libav::scanMp4(file_.io.file(), static_cast<std::uint32_t>(file_.stream->id));
     }
     limitTo(options);
   }
@@ -221,7 +219,7 @@ class MovieSource final : public FrameSource {
   MovieBounds bounds_;
   int packetsWithoutFrame_ = 0;
   libav::Packet packet_ = libav::makePacket();
-  Mp4Boxes boxes_;
+  libav::Mp4Boxes boxes_;
   // The part to be played, in the stream's time base.
   std::optional<std::int64_t> from_;
   std::optional<std::int64_t> to_;
@@ -374,7 +372,8 @@ std::optional<Error> MovieSource::whyTruncated(const libav::LogCapture& log) con
   } else if (isY4m()) {
     // libav reports no error if the last frame is too short.
     cut = !file_.io.file().isStream() && lastPacketEnd_ != file_.io.file().sizeBytes();
-  } else if (isMatroska() && !file_.io.file().isStream() && segmentBreaksOff(file_.io.file())) {
+  } else if (isMatroska() && !file_.io.file().isStream() &&
+             libav::segmentBreaksOff(file_.io.file())) {
     cut = true;
   } else if (!log.firstError().empty()) {
     return aborted(subject_, "is truncated: " + log.firstError());

@@ -31,6 +31,7 @@ bool SoundTrack::openStreams() {
   const libav::LogCapture log;
   const AVInputFormat* format = nullptr;
   if (av_probe_input_buffer2(io_.context(), &format, "", nullptr, 0, 0) < 0) return false;
+  libav::leaveOutCutHead(io_, *format);
   AVFormatContext* context = libav::makeDemuxer(io_.context());
   if (avformat_open_input(&context, "", format, nullptr) < 0) return false;
   context_.reset(context);

@@ -77,7 +77,9 @@ StraightStrokePainting paintWithStraightStrokes(const hal::Image& image,
     std::vector<glm::dvec2> places;
     for (double y = 0.0; y < size.height; y += width) {
       for (double x = 0.0; x < size.width; x += width) {
-        const glm::dvec2 at(x + width * unit(random), y + width * unit(random));
+        // In this order: that of a call's arguments is the compiler's.
+        const double down = unit(random);
+        const glm::dvec2 at(x + width * unit(random), y + width * down);
         if (at.x < size.width && at.y < size.height) places.push_back(at);
       }
     }

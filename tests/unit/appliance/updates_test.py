@@ -100,7 +100,7 @@ class Updates(unittest.TestCase):
             "PLEINAIR_RELEASE": os.path.join(self.folder, "os-release"), "PLEINAIR_GRUBENV": self.block,
             "PLEINAIR_RAUC": os.path.join(self.folder, "system.conf"),
             "PLEINAIR_CMDLINE": os.path.join(self.folder, "cmdline"), "PLEINAIR_UPTIME": os.path.join(self.folder, "uptime"),
-            "PLEINAIR_RESTART": restart or f"touch {self.folder}/restarted",
+            "PLEINAIR_RESTART": restart or f"touch {self.folder}/restarted", "PLEINAIR_LINGER": "1",
             "PATH": f"{self.folder}/bin:{grub.TOOLS}/bin:{PATH}"}
         process = subprocess.Popen([INSTALL, *(place or [self.stick])], env=environment, stdout=subprocess.PIPE, text=True)
         self.addCleanup(process.stdout.close)
@@ -352,11 +352,42 @@ class Updates(unittest.TestCase):
         self.write("bin/rauc", f"#!/bin/sh\nrm -r {self.stick}\nexit 1\n")
         self.assertEqual(self.install(), (3, ""))
 
-    def test_a_stick_without_bundles_takes_away_what_another_had_shown(self):
+    def test_a_stick_without_bundles_takes_away_what_it_had_shown_and_not_what_another_has(self):
         self.put(self.bundle("old", "1.4"))
         self.refused()
+        other = os.path.join(self.folder, "other")
+        os.mkdir(other)
+        self.assertIn("is older", self.install(other)[1])
         os.remove(os.path.join(self.stick, "old.raucb"))
         self.assertEqual(self.install(), (0, ""))
+        self.put(self.bundle("old", "1.4"))
+        self.refused()
+        shutil.rmtree(self.stick)
+        self.assertEqual(self.install(other), (0, ""), "the one that had shown it is gone")
+
+    def test_a_stick_that_cannot_be_read_is_said(self):
+        device = self.device()
+        self.program("mount", "exit 32\n")
+        self.assertEqual(self.install(device), (3, "The stick cannot be read."))
+
+    def test_a_block_that_cannot_be_written_is_said(self):
+        self.put(self.good)
+        os.remove(self.block)
+        os.mkdir(self.block)
+        status, notice = self.install()
+        self.assertNotEqual(status, 0)
+        self.assertFalse(self.has("installed"))
+        self.assertIn("An update cannot be begun", notice)
+
+    def test_what_a_stick_that_was_pulled_has_left_undone_is_said_for_a_while(self):
+        self.rauc_answers(f"rm -r {self.stick}; exit 1")
+        self.put(self.good)
+        process = self.begin()
+        lines = [process.stdout.readline() for _ in range(1)]
+        self.assertIn("Installing version 2.0", lines[0])
+        said = process.communicate(timeout=60)[0]
+        self.assertIn("Version 2.0 could not be installed", said)
+        self.assertEqual((process.returncode, self.notice()), (1, ""))
 
     def test_the_stick_that_the_running_version_came_from_is_not_announced(self):
         self.put(self.bundle("old", "1.4"))

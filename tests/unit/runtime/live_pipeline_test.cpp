@@ -116,6 +116,23 @@ TEST_F(LivePipelineTest, LowersQualityAndKeepsTheLatencyUnderTwiceTheLoad) {
   expectSumsToAgree();
 }
 
+TEST_F(LivePipelineTest, FollowsAnotherBudget) {
+  constexpr std::array<int, 5> kCostMs{40, 27, 18, 12, 8};
+  live_.gpu.cost = [&](auto, std::size_t quality) {
+    return std::chrono::milliseconds(kCostMs.at(quality));
+  };
+  begin();
+  live_.runFor(10s);
+  EXPECT_GT(status().painting.quality, 0u);
+  live_.chain->paint().setFramePeriod(100ms);
+  live_.runFor(60s);
+  EXPECT_EQ(status().painting.quality, 0u);
+  live_.chain->paint().setFramePeriod(33'333us);
+  live_.runFor(10s);
+  EXPECT_GT(status().painting.quality, 0u);
+  expectSumsToAgree();
+}
+
 TEST_F(LivePipelineTest, PaintsAtNoBetterLevelThanIsPermitted) {
   std::size_t best = 9;  // of the frames since it was set
   live_.gpu.cost = [&](auto, std::size_t quality) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -118,6 +119,24 @@ TEST_F(OutputStageTest, OpensADeviceAnewOnceItIsBack) {
   EXPECT_EQ(device_.opened, 2);
   EXPECT_EQ(static_cast<std::uint64_t>(device_.written), of(Outcome::kShown));
   EXPECT_GT(of(Outcome::kShown), 80u);
+  expectSumsToAgree();
+}
+
+TEST_F(OutputStageTest, KeepsNoFramesThatComeWhileItFails) {
+  begin(true);
+  run(2);
+  device_.isBroken = device_.isGone = true;
+  run(2);
+  ASSERT_TRUE(stage_->status().isFailed);
+  std::set<const OutputFrame*> buffers;
+  for (int i = 0; i < 10; ++i) {  // while its thread opens the device, which may take long
+    OutputFrame& picture = stage_->buffer();
+    buffers.insert(&picture);
+    picture.image = hal::Image(submitted_);
+    picture.captureTime = clock_.now();
+    stage_->submit(ledger_.open(), clock_.now(), 10ms);
+  }
+  EXPECT_EQ(buffers.size(), 1u);
   expectSumsToAgree();
 }
 

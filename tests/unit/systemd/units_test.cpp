@@ -153,8 +153,8 @@ TEST_F(Units, LookForTheSetUpWhereItsPartitionIsMountedReadOnly) {
   EXPECT_THAT(rules, HasSubstr("ENV{ID_FS_TYPE}==\"" + valueIn(mount, "Type") + "\""));
 }
 
-// A service may open the kinds of devices that /proc/devices has when it starts: a display whose driver comes
-// later could not be opened.
+// A service may open the kinds of devices that /proc/devices has when it starts: a display whose
+// driver comes later could not be opened.
 TEST(DeviceKinds, OfModulesAreKnownBeforeTheServicesStart) {
   const std::map<std::string, std::string> modules{
       {"video4linux", "videodev"}, {"media", "mc"}, {"drm", "drm"}, {"input", ""}, {"tty", ""}};
@@ -190,6 +190,33 @@ TEST_F(Units, StayCloseWithTheDropInForSoftwareGl) {
     addDropIn(service, "software-gl.conf");
     EXPECT_LE(exposureOf(service), 1.0) << service;
     EXPECT_EQ(analyze("verify", service).text, "") << service;
+  }
+}
+
+TEST_F(Units, StayCloseWithTheDropInForUsb3Cameras) {
+  addDropIn("pleinair-kiosk.service", "usb3-camera.conf");
+  EXPECT_LE(exposureOf("pleinair-kiosk.service"), 1.0);
+  EXPECT_EQ(analyze("verify", "pleinair-kiosk.service").text, "");
+}
+
+TEST_F(Units, FollowTheKernelsWords) {
+  const fs::path words = folder_.path() / "words";
+  const auto generate = [&](const std::string& line) {
+    std::ofstream(words) << line << '\n';
+    const fs::path folder = folder_.path() / "generated";
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    const Answer answer = ask("PLEINAIR_CMDLINE='" + words.string() +
+                              "' sh " PLEINAIR_GENERATOR " '" + folder.string() + "'");
+    EXPECT_EQ(answer.text, "") << line;
+    return folder / "pleinair-kiosk.service.d";
+  };
+  const fs::path both = generate("quiet pleinair.software_gl pleinair.time_zone=Europe/Berlin");
+  EXPECT_THAT(textOf(both / "time-zone.conf"), HasSubstr("\nEnvironment=TZ=:Europe/Berlin\n"));
+  EXPECT_EQ(textOf(both / "software-gl.conf"), textOf(kDropIns / "software-gl.conf"));
+  for (const char* line : {"quiet", "pleinair.time_zone=", "pleinair.time_zone=a%b",
+                           "pleinair.time_zone=$(touch;x)"}) {
+    EXPECT_FALSE(fs::exists(generate(line))) << line;
   }
 }
 

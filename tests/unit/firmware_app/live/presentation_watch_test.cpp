@@ -12,9 +12,19 @@ class PresentationWatchTest : public testing::Test {
   /// A second passes; every thread turns.
   bool progress() {
     now_ += 1s;
+    if (framesCome_) ++seen_.arrived;
     for (OutputProgress& each : seen_.outputs) ++each.steps;
     watch_.update(seen_, now_);
     return watch_.takeProgress();
+  }
+  /// Whether there is progress after so many seconds, in each of which it shows something.
+  bool showsFor(OutputProgress& display, int seconds) {
+    bool isAlive = true;
+    for (int i = 0; i < seconds; ++i) {
+      ++display.shown;
+      isAlive = progress();
+    }
+    return isAlive;
   }
   OutputProgress& add(const std::string& name, bool isScreen) {
     return seen_.outputs.emplace_back(OutputProgress{.name = name, .isScreen = isScreen});
@@ -23,6 +33,7 @@ class PresentationWatchTest : public testing::Test {
   PresentationWatch watch_;
   PresentationWatch::Seen seen_;
   hal::TimePoint now_{100s};
+  bool framesCome_ = true;
 };
 
 TEST_F(PresentationWatchTest, IsNothingWithoutOutputs) {
@@ -77,20 +88,24 @@ TEST_F(PresentationWatchTest, EndsWherePaintingHangsBehindAWaitingPicture) {
   OutputProgress& display = add("display", true);
   seen_.expectsPaintings = true;
   seen_.painted = 5;
-  const auto showsFor = [&](int seconds) {
-    bool isAlive = true;
-    for (int i = 0; i < seconds; ++i) {
-      ++display.shown;
-      isAlive = progress();
-    }
-    return isAlive;
-  };
-  EXPECT_TRUE(showsFor(60));
-  EXPECT_FALSE(showsFor(2));
+  EXPECT_TRUE(showsFor(display, 60));
+  EXPECT_FALSE(showsFor(display, 2));
   ++seen_.painted;
-  EXPECT_TRUE(showsFor(30));
+  EXPECT_TRUE(showsFor(display, 30));
   seen_.expectsPaintings = false;  // the camera is gone
-  EXPECT_TRUE(showsFor(300));
+  EXPECT_TRUE(showsFor(display, 300));
+}
+
+TEST_F(PresentationWatchTest, ExpectsNoPaintingsOfACameraThatWaitsForItsTrigger) {
+  OutputProgress& display = add("display", true);
+  seen_.expectsPaintings = true;
+  seen_.painted = 5;
+  EXPECT_TRUE(showsFor(display, 1));
+  framesCome_ = false;
+  EXPECT_TRUE(showsFor(display, 300));
+  ++seen_.arrived;
+  EXPECT_TRUE(showsFor(display, 60));
+  EXPECT_FALSE(showsFor(display, 2)) << "the frame that came is not painted";
 }
 
 }  // namespace

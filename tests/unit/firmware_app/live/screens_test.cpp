@@ -227,6 +227,23 @@ TEST_F(ScreensTest, KeepTheLastPaintingForTheNextRun) {
   EXPECT_EQ(folder_.entryCount(), 1u);
 }
 
+TEST_F(ScreensTest, KeepNoPaintingTwice) {
+  plug();
+  update();
+  screens_.showFirst(clock_);
+  beginToPaint();
+  runFor(1s);
+  screens_.finish();
+  const std::filesystem::path kept = folder_.path() / "last-painting.png";
+  ASSERT_TRUE(std::filesystem::remove(kept));
+  clock_.advance(2min);
+  screens_.finish();
+  EXPECT_FALSE(std::filesystem::exists(kept)) << "nothing was shown since";
+  runFor(1s);
+  screens_.finish();
+  EXPECT_TRUE(std::filesystem::exists(kept));
+}
+
 TEST_F(ScreensTest, IgnoreAKeptPaintingThatIsBroken) {
   std::ofstream(folder_.path() / "last-painting.png") << "no picture";
   plug();

@@ -16,6 +16,7 @@ constexpr hal::TimePoint kStart{100s};
 class WaitingStateTest : public testing::Test {
  protected:
   Awaited update(hal::TimePoint now) {
+    if (framesCome_) ++camera_.arrived;
     state_.update({.camera = camera_,
                    .hasBegun = hasBegun_,
                    .hasPainter = hasPainter_,
@@ -34,6 +35,7 @@ class WaitingStateTest : public testing::Test {
   bool hasBegun_ = false;
   bool hasPainter_ = false;
   bool isRenewing_ = false;
+  bool framesCome_ = true;
   std::uint64_t painted_ = 0;
   WaitingState state_;
 };
@@ -90,6 +92,17 @@ TEST_F(WaitingStateTest, IsTooSlowOnceNothingIsPaintedForAWhile) {
   EXPECT_EQ(update(kStart + 10s), Awaited::kNothing);
   EXPECT_EQ(update(kStart + 13s), Awaited::kNothing);
   EXPECT_EQ(update(kStart + 15s), Awaited::kPace);
+}
+
+TEST_F(WaitingStateTest, ACameraThatWaitsForItsTriggerIsNotTooSlow) {
+  paint();
+  EXPECT_EQ(update(kStart), Awaited::kNothing);
+  framesCome_ = false;
+  EXPECT_EQ(update(kStart + 60s), Awaited::kNothing);
+  framesCome_ = true;
+  EXPECT_EQ(update(kStart + 61s), Awaited::kNothing);
+  framesCome_ = false;
+  EXPECT_EQ(update(kStart + 66s), Awaited::kPace) << "the frame that came is not painted";
 }
 
 TEST_F(WaitingStateTest, TheEndOfARecordingIsNothingToWaitFor) {

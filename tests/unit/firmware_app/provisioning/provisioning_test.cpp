@@ -259,6 +259,18 @@ TEST_F(SiteWatchTest, SeesAMediumThatComesAndOneThatWasWritten) {
   EXPECT_TRUE(comesToSee(watch));
 }
 
+TEST_F(SiteWatchTest, SeesAMediumAgainThatWasPulledWhileItWasRead) {
+  stick_.write("site.toml", "");
+  const SiteWatch watch(places(), 1ms);
+  const auto away = stick_.path().string() + ".away";
+  std::filesystem::rename(stick_.path(), away);
+  expectNothingNew(watch);
+  EXPECT_FALSE(watch.hasChanged(true)) << "while it is away";
+  std::filesystem::rename(away, stick_.path());
+  expectNothingNew(watch);
+  EXPECT_TRUE(watch.hasChanged(true));
+}
+
 TEST_F(SiteWatchTest, IsNotImpressedByAMediumThatGoesAndComesBack) {
   stick_.write("site.toml", "");
   const SiteWatch watch(places(), 1ms);

@@ -67,6 +67,18 @@ TEST_F(Sound, IsKeptInStep) {
   EXPECT_TRUE(notices_.empty());
 }
 
+TEST_F(Sound, OfARecordingThatIsCutWithinALaterHeadIsKeptUpToThere) {
+  writeRecording("in.mp4", AV_CODEC_ID_MPEG4, AV_CODEC_ID_AAC);
+  paint("whole.mp4", {.soundOf = path("in.mp4")}, 75);
+  std::ifstream file(path("whole.mp4"), std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t head = whole.rfind("moof");
+  ASSERT_NE(head, whole.find("moof")) << "a control: it has several fragments";
+  std::ofstream(path("cut.mp4"), std::ios::binary) << whole.substr(0, head + 60);
+  paint("again.mp4", {.soundOf = path("cut.mp4")}, 40);
+  expectClicks("again.mp4", {0.52, 1.30});
+}
+
 TEST_F(Sound, OfAPartBeginsWithItsFirstFrame) {
   writeRecording("in.mp4", AV_CODEC_ID_MPEG4, AV_CODEC_ID_AAC);
   // Between two frames: the part begins at 1.24 s.

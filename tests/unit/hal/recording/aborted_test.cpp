@@ -139,6 +139,24 @@ TEST_F(Aborted, WithinTheHeadOfALaterFragmentGivesTheFragmentsBefore) {
   EXPECT_GE(heads, 3u);
 }
 
+// Its data follows, so that it is not cut.
+TEST_F(Aborted, AHeadWhoseSizeIsDamagedIsRead) {
+  const std::filesystem::path whole = folder_.path() / "whole.mp4";
+  const std::filesystem::path damaged = folder_.path() / "damaged.mp4";
+  record(whole);
+  const std::vector<Box> boxes = boxesOf(bytes_);
+  const auto isHead = [](const Box& box) { return box.type == "moof"; };
+  const auto first = std::ranges::find_if(boxes, isHead);
+  ASSERT_NE(first, boxes.end());
+  std::string bytes = bytes_;
+  bytes[first->at] = 0x01;  // 16 MiB more
+  writeAll(damaged, bytes);
+  const Result<support::Played> played = support::play(damaged);
+  ASSERT_TRUE(played) << played.error().message();
+  EXPECT_GT(played->frames.size(), 0u);
+  expectSound(*played);
+}
+
 TEST_P(AbortedRecording, SurvivesDamageAnywhere) {
   const auto damaged = folder_.path() / ("damaged." + GetParam());
   for (unsigned seed = 1; seed <= 25; ++seed) {

@@ -1,4 +1,4 @@
-#include "hal/cameras/recording/container_scan.h"
+#include "hal/media/container_scan.h"
 
 #include <array>
 #include <bit>
@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-namespace pleinair::hal::recording {
+namespace pleinair::hal::libav {
 namespace {
 
 constexpr std::uint32_t fourcc(const char (&name)[5]) {
@@ -37,15 +37,16 @@ class Scanner {
 
   std::int64_t readableBytes() {
     const Last last = forEachBox([](const Box&) {});
-    const bool isCutHead = last.type == fourcc("moof") || file_.sizeBytes() - last.at < kHeadBytes;
-    return isCutHead && last.at > 0 ? last.at : file_.sizeBytes();
+    const bool isCut = file_.sizeBytes() - last.at < kHeadBytes ||
+                       (last.type == fourcc("moof") && isCutHead(last.at));
+    return isCut && last.at > 0 ? last.at : file_.sizeBytes();
   }
 
  private:
   /// The first box that is not whole, or the end of the file.
   struct Last {
     std::int64_t at = 0;
-    std::uint32_t type = 0;  ///< 0 where there is no sound size
+    std::uint32_t type = 0;  ///< 0 at the end of the file, or where the size is invalid
   };
 
   /// Calls visit(box) for each whole box of the file.
@@ -60,6 +61,18 @@ class Scanner {
       at = box->end;
     }
     return {.at = at};
+  }
+
+  /// Whether a head that is not whole ends with the file. Otherwise its size is damaged: its data
+  /// (mdat) follows, and libav reads it.
+  bool isCutHead(std::int64_t at) {
+    std::int64_t next = at + kHeadBytes;
+    while (file_.sizeBytes() - next >= kHeadBytes && budgetLeft()) {
+      const std::optional<Box> child = boxAt(next);
+      if (!child || child->type == fourcc("mdat")) return false;
+      next = child->end;
+    }
+    return true;
   }
 
   static constexpr std::int64_t kHeadBytes = 8;  ///< size and type
@@ -194,4 +207,4 @@ bool segmentBreaksOff(const FileInput& file) {
   return false;
 }
 
-}  // namespace pleinair::hal::recording
+}  // namespace pleinair::hal::libav

@@ -4,7 +4,7 @@
 
 #include "hal/media/file_input.h"
 
-namespace pleinair::hal::recording {
+namespace pleinair::hal::libav {
 
 // Facts about a movie's container that libav does not report, read from the headers of its parts.
 
@@ -17,13 +17,12 @@ struct Mp4Boxes {
 /// files of more than a million boxes.
 Mp4Boxes scanMp4(const FileInput& file, std::uint32_t trackId);
 
-/// Where a demuxer of MP4 is to stop: before a last fragment's head (moof) that the end of the file
-/// cuts off, otherwise at that end. libav reads all heads first, and refuses a file for a broken
-/// one.
+/// An MP4 file's size; less where its end cuts off a fragment's head (moof) or a box's first 8
+/// bytes: then where that box begins.
 std::int64_t readableMp4Bytes(const FileInput& file);
 
 /// Whether a Matroska file is truncated: it ends before the end that its Segment declares (RFC 8794
 /// §4, RFC 9559 §5.1). False if the size is unknown, as in a live stream.
 bool segmentBreaksOff(const FileInput& file);
 
-}  // namespace pleinair::hal::recording
+}  // namespace pleinair::hal::libav
