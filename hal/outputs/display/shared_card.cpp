@@ -50,8 +50,9 @@ void SharedCard::markRemoved() {
 }
 
 Result<DisplayRoute> SharedCard::claim(const DisplayRequest& request) {
-  const std::scoped_lock lock(mutex_);
+  // Asking the displays takes up to some 100 ms, for which no other output's flips are to wait.
   const Result<CardState> state = card_->read(true);
+  const std::scoped_lock lock(mutex_);
   if (!state) return tl::unexpected(state.error());
   const Result<Connector> connector = chooseConnector(*state, request.connector, connectors_);
   if (!connector) return tl::unexpected(connector.error());
