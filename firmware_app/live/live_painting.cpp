@@ -165,7 +165,6 @@ class LivePainting {
     if (!outputs_.isUpdateDue()) return;
     const auto painting = progress();
     const auto camera = pipeline_.capture().status();
-    followRate(camera);
     outputs_.update({.camera = camera,
                      .hasBegun = hasBegun_,
                      .hasPainter = painting.hasPainter,
@@ -217,6 +216,7 @@ class LivePainting {
     steady_.update(shown, job_.clock->now());
     service_->update({.outputs = shown,
                       .expectsPaintings = hasBegun_ && isStreaming && painting.hasPainter,
+                      .isTriggered = status.camera.format && status.camera.format->isTriggered,
                       .arrived = status.camera.arrived,
                       .painted = painting.painted},
                      hasBegun_ ? runtime::statusLine(status, qualityNames()) : startingText(status),
@@ -393,6 +393,7 @@ class LivePainting {
     if (now - reported_ < kReportInterval) return;
     reported_ = now;
     const runtime::RuntimeStatus status = pipeline_.status();
+    followRate(status.camera);
     reporter_.update(status, now);
     writeFrameLog();
     if (runtime::takeDemotion()) {

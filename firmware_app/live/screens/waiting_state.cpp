@@ -34,8 +34,11 @@ std::string absenceOf(const runtime::CaptureStage::Status& camera, const std::st
 
 void WaitingState::update(const LiveProgress& progress, hal::TimePoint now) {
   const Awaited next = awaitedBy(progress);
-  if (next != awaited_ || progress.painted != painted_) arrived_ = progress.camera.arrived;
-  if (progress.camera.arrived == arrived_) since_ = now;
+  const runtime::CaptureStage::Status& camera = progress.camera;
+  const bool hasChanged = next != awaited_ || progress.painted != painted_;
+  if (hasChanged) arrived_ = camera.arrived;
+  const bool isTriggered = camera.format && camera.format->isTriggered;
+  if (hasChanged || (isTriggered && camera.arrived == arrived_)) since_ = now;
   awaited_ = next;
   painted_ = progress.painted;
   isOver_ = hasEnded(progress.camera);

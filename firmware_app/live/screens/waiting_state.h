@@ -42,7 +42,7 @@ class WaitingState {
   bool isOver_ = false;  ///< no more frames come
   std::uint64_t painted_ = 0;
   std::uint64_t arrived_ = 0;  ///< frames, when these changed
-  hal::TimePoint since_;       ///< when these changed, or no frame had come since
+  hal::TimePoint since_;       ///< when these changed, or a camera still waited for its trigger
 };
 
 /// What a picture says meanwhile. `choice`: the camera that was asked for.

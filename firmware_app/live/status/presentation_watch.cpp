@@ -18,7 +18,8 @@ OutputProgress progressOf(const runtime::OutputStage::Status& output, bool isScr
 void PresentationWatch::update(Seen seen, hal::TimePoint now) {
   const bool hasPainted = seen.painted != painted_;
   if (hasPainted || !seen.expectsPaintings) arrivedBefore_ = seen.arrived;
-  if (seen.arrived == arrivedBefore_) paintedAt_ = now;
+  waitsForTrigger_ = seen.expectsPaintings && seen.isTriggered && seen.arrived == arrivedBefore_;
+  if (hasPainted || !seen.expectsPaintings || waitsForTrigger_) paintedAt_ = now;
   painted_ = seen.painted;
   seen_ = std::move(seen);
   now_ = now;
@@ -34,7 +35,7 @@ bool PresentationWatch::hasAdvanced(const OutputProgress& output) const {
   if (before == before_.end()) return true;
   const OutputProgress& then = before->second;
   if (output.shown > then.shown) return true;
-  const bool isIdle = !output.isScreen && output.submitted == then.submitted;
+  const bool isIdle = (!output.isScreen || waitsForTrigger_) && output.submitted == then.submitted;
   return (output.isExcused || isIdle) && output.steps > then.steps;
 }
 

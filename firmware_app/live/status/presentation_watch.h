@@ -37,7 +37,8 @@ class PresentationWatch {
   struct Seen {
     std::vector<OutputProgress> outputs;
     bool expectsPaintings = false;  ///< the camera streams, and there is a painter
-    std::uint64_t arrived = 0;      ///< frames for the painter; a camera may wait for a trigger
+    bool isTriggered = false;       ///< the camera sends a frame when something asks for one
+    std::uint64_t arrived = 0;      ///< frames for the painter
     std::uint64_t painted = 0;
   };
   void update(Seen seen, hal::TimePoint now);
@@ -45,7 +46,8 @@ class PresentationWatch {
   /// Whether an output has shown a picture of any kind.
   bool hasShown() const;
   /// Whether since the last call that returned true every output has shown something, or had
-  /// nothing to show or was excused while its thread turned, and painting does not hang. False
+  /// nothing to show or was excused while its thread turned, and painting does not hang. Where a
+  /// camera waits for its trigger, there is nothing to show. False
   /// without outputs.
   bool takeProgress();
 
@@ -56,6 +58,7 @@ class PresentationWatch {
   std::map<std::string, OutputProgress> before_;  ///< at the last progress
   std::uint64_t painted_ = 0;
   std::uint64_t arrivedBefore_ = 0;  ///< when it last painted
+  bool waitsForTrigger_ = false;     ///< all that arrived is painted
   hal::TimePoint now_;
   hal::TimePoint paintedAt_;  ///< or when none was expected yet
 };

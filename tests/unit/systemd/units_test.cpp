@@ -156,8 +156,12 @@ TEST_F(Units, LookForTheSetUpWhereItsPartitionIsMountedReadOnly) {
 // A service may open the kinds of devices that /proc/devices has when it starts: a display whose
 // driver comes later could not be opened.
 TEST(DeviceKinds, OfModulesAreKnownBeforeTheServicesStart) {
-  const std::map<std::string, std::string> modules{
-      {"video4linux", "videodev"}, {"media", "mc"}, {"drm", "drm"}, {"input", ""}, {"tty", ""}};
+  const std::map<std::string, std::string> modules{{"video4linux", "videodev"},
+                                                   {"dma_heap", ""},
+                                                   {"media", "mc"},
+                                                   {"drm", "drm"},
+                                                   {"input", ""},
+                                                   {"tty", ""}};
   const std::string loaded = "\n" + textOf(PLEINAIR_MODULES);
   int kinds = 0;
   for (const std::string unit : {"pleinair-kiosk.service", "pleinair-rescue@.service"}) {

@@ -96,6 +96,7 @@ TEST_F(WaitingStateTest, IsTooSlowOnceNothingIsPaintedForAWhile) {
 
 TEST_F(WaitingStateTest, ACameraThatWaitsForItsTriggerIsNotTooSlow) {
   paint();
+  camera_.format->isTriggered = true;
   EXPECT_EQ(update(kStart), Awaited::kNothing);
   framesCome_ = false;
   EXPECT_EQ(update(kStart + 60s), Awaited::kNothing);
