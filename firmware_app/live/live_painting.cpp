@@ -164,8 +164,7 @@ class LivePainting {
     followProcedure();
     if (!outputs_.isUpdateDue()) return;
     const auto painting = progress();
-    const auto camera = pipeline_.capture().status();
-    outputs_.update({.camera = camera,
+    outputs_.update({.camera = pipeline_.capture().status(),
                      .hasBegun = hasBegun_,
                      .hasPainter = painting.hasPainter,
                      .isRenewing = painting.isRenewing,

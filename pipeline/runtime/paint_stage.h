@@ -108,7 +108,7 @@ class PaintStage {
     std::optional<CameraPath> cameraPath;  ///< of frames to the GPU, once one was painted
   };
   Status status() const;
-  /// What is asked many times a second, without the histograms.
+  /// The part of Status that the main thread reads many times a second; its copy has no histograms.
   struct Progress {
     std::size_t quality = 0;
     std::uint64_t painted = 0;
