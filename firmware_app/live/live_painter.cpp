@@ -15,8 +15,7 @@ hal::Error notYet() {
 
 }  // namespace
 
-LivePainter::LivePainter(const PainterOptions& options,
-                         const std::vector<hal::OutputFormat>& outputs, LiveControls& controls,
+LivePainter::LivePainter(const PainterOptions& options, LiveControls& controls,
                          std::shared_ptr<const LiveParameters> start, const MachinePlace& machine)
     : painter_(options),
       controls_(controls),
@@ -27,7 +26,6 @@ LivePainter::LivePainter(const PainterOptions& options,
       machine_(machine) {
   parameters_.overlay = controls.overlay();
   warmUp(options);
-  for (std::size_t i = 0; i < outputs.size(); ++i) open(i, outputs[i]);
 }
 
 void LivePainter::warmUp(const PainterOptions& options) {

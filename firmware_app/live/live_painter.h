@@ -19,9 +19,8 @@ namespace pleinair::app {
 class LivePainter final : public runtime::FramePainter {
  public:
   /// `start`: of the options' style; `machine`: what stills are about. Throws hal::Failure.
-  LivePainter(const PainterOptions& options, const std::vector<hal::OutputFormat>& outputs,
-              LiveControls& controls, std::shared_ptr<const LiveParameters> start,
-              const MachinePlace& machine = {});
+  LivePainter(const PainterOptions& options, LiveControls& controls,
+              std::shared_ptr<const LiveParameters> start, const MachinePlace& machine = {});
 
   hal::Result<void> paint(const hal::CapturedFrame& frame, std::size_t quality) override;
   hal::Answer poll(std::size_t output, OutputFrame& frame) override;

@@ -281,14 +281,12 @@ class LivePainting {
     if (hal::Window* window = outputs_.window()) input_.openWindow(*window);
     if (procedure_) procedure_->makeOverlay(outputs_.pictureSize());
     style_ = controls_.parameters()->style;
-    pipeline_.makePaintStage([this](const auto& formats) { return makePainter(formats); },
-                             paintRules(job_.runtime, stream_));
+    pipeline_.makePaintStage([this] { return makePainter(); }, paintRules(job_.runtime, stream_));
     threads_->startPainter();
     status_.setComplete();
   }
 
-  std::unique_ptr<runtime::FramePainter> makePainter(
-      const std::vector<hal::OutputFormat>& formats) {
+  std::unique_ptr<runtime::FramePainter> makePainter() {
     const std::shared_ptr<const LiveParameters> start = controls_.parameters();
     const PainterOptions options{.pictureSize = outputs_.pictureSize(),
                                  .scene = job_.scene,
@@ -303,7 +301,7 @@ class LivePainting {
                                  .doubtfulTags = procedure_ ? procedure_->doubtfulTags() : nullptr,
                                  .isCancelled = [this] { return isStopping_ || isSignalled_(); },
                                  .windows = outputs_.windowDisplay()};
-    return std::make_unique<LivePainter>(options, formats, controls_, start,
+    return std::make_unique<LivePainter>(options, controls_, start,
                                          procedure_ ? procedure_->machine() : MachinePlace());
   }
 

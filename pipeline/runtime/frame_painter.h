@@ -35,7 +35,8 @@ class FramePainter {
   virtual void wait(hal::Duration limit) = 0;
 
   /// Opens an output: from the next paint() on, frames are read back for it in `format`. `output`:
-  /// the number of outputs opened so far. Throws hal::Failure.
+  /// the number of outputs opened so far. Throws hal::Failure: kDeviceLost, after which a new
+  /// painter is needed; others: this output cannot be painted for, and is not opened.
   virtual void open(std::size_t output, const hal::OutputFormat& format) = 0;
   /// Closes an output; its frames in flight are dropped.
   virtual void close(std::size_t output) = 0;
@@ -67,8 +68,7 @@ class FramePainter {
   virtual std::span<const gpu::PassTime> passTimes() const { return {}; }
 };
 
-/// Makes a painter with an open output for each format, numbered from 0. Throws hal::Failure.
-using PainterFactory =
-    std::function<std::unique_ptr<FramePainter>(const std::vector<hal::OutputFormat>& outputs)>;
+/// Makes a painter without outputs. Throws hal::Failure.
+using PainterFactory = std::function<std::unique_ptr<FramePainter>()>;
 
 }  // namespace pleinair::runtime

@@ -184,6 +184,7 @@ void OutputStage::handOver() {
 }
 
 std::optional<hal::TimePoint> OutputStage::step() {
+  followRefusal();
   tryToReopen();
   applyRequest();
   takeEvents();
@@ -221,6 +222,24 @@ void OutputStage::fail(hal::Error error) {
   lending_.restart();
 }
 
+void OutputStage::refuse(const hal::Error& error) {
+  const std::scoped_lock lock(mutex_);
+  isRefused_ = true;
+  refusal_ = error;
+  isWoken_ = true;
+  changed_.notify_all();
+}
+
+bool OutputStage::isRefused() const {
+  const std::scoped_lock lock(mutex_);
+  return isRefused_;
+}
+
+void OutputStage::followRefusal() {
+  const std::scoped_lock lock(mutex_);
+  if (refusal_) fail(*std::exchange(refusal_, std::nullopt));
+}
+
 void OutputStage::tryToReopen() {
   {
     const std::scoped_lock lock(mutex_);
@@ -250,6 +269,7 @@ void OutputStage::started(const hal::OutputFormat& format) {
   queue_ = PresentationQueue(rulesOf(output_.get(), format_, options_.rules), options_.waiting);
   refresh_ = format_.refresh;
   fillTime_ = {};
+  isRefused_ = false;
   ++status_.starts;
 }
 

@@ -106,6 +106,11 @@ class OutputStage {
   /// One for the next frame; nothing where it is to be read back.
   std::optional<hal::LentSurface> takeSurface();
 
+  /// The painter cannot paint for it: it fails at the next step().
+  void refuse(const hal::Error& error);
+  /// Whether that was so for what it was last opened as.
+  bool isRefused() const;
+
   // Any thread.
 
   /// Has `picture` (RGBA8, of format()'s size) shown as soon as no frame waits; where the output
@@ -168,6 +173,7 @@ class OutputStage {
     double perSecond = 0.0;
     std::uint64_t presented = 0;
     std::uint64_t waitingShown = 0;  ///< waiting pictures that a presentation event confirmed
+    std::uint64_t skipped = 0;       ///< frames that the output itself dropped
     std::uint64_t steps = 0;         ///< completed calls of step(): the output thread turns
     hal::Duration latencySum{0};     ///< over all presented frames
     /// Recent times from capture until write() was called; for surfaces, until they were shown.
@@ -230,6 +236,7 @@ class OutputStage {
   void count(const WaitingFrame& frame, Outcome outcome, FrameRecord known = {});
   void endAll(Outcome outcome);
   void fail(hal::Error error);
+  void followRefusal();
   void tryToReopen();
   void applyRequest();
   void started(const hal::OutputFormat& format);
@@ -278,6 +285,8 @@ class OutputStage {
   Brightness brightness_ = kFullBrightness;
   std::optional<hal::SurfaceId> waitingSurface_;  ///< submitted, without an event
   std::optional<hal::OutputRequest> request_;     ///< for applyRequest()
+  bool isRefused_ = false;                        ///< until it is opened again
+  std::optional<hal::Error> refusal_;             ///< for followRefusal()
   std::optional<std::size_t> last_;               ///< buffer of the last whole frame
   bool isFading_ = false;                         ///< frames are blended with a picture
   /// The surface with the last whole frame, while it is seen.

@@ -88,6 +88,7 @@ void OutputStage::presentInMemory(hal::MemoryOutput& output, const Due& due) {
   }
   if (isSkipped) {
     reopenAfter_ = kFirstReopenDelay;
+    ++status_.skipped;
     end(due.frame, Outcome::kOutputBusy);
     return;
   }

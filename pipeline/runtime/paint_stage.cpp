@@ -65,15 +65,12 @@ PaintStage::PaintStage(PainterFactory factory, const std::vector<OutputStage*>& 
 PaintStage::~PaintStage() = default;
 
 void PaintStage::start() {
-  std::vector<hal::OutputFormat> formats;
-  for (Output& output : outputs_) {
-    output.id = formats.size();
-    output.format = output.stage->format();
-    formats.push_back(output.format);
+  nextId_ = 0;
+  painter_ = factory_();
+  if (const auto opened = openOutputs(); !opened) {
+    destroyPainter();
+    throw hal::Failure(opened.error());
   }
-  nextId_ = formats.size();
-  painter_ = factory_(formats);
-  for (const Output& output : outputs_) offer(output);
   const std::scoped_lock lock(mutex_);
   hasPainter_ = true;
   isRenewing_ = isToRenew_;
@@ -133,7 +130,7 @@ void PaintStage::handleRequests() {
     toOpen = toOpen_;
     toClose = toClose_;
   }
-  for (OutputStage* output : toOpen) open(*output);
+  for (OutputStage* output : toOpen) outputs_.push_back({.stage = output, .format = {}});
   for (OutputStage* output : toClose) close(*output);
   const std::scoped_lock lock(mutex_);
   std::erase_if(toOpen_,
@@ -144,21 +141,32 @@ void PaintStage::handleRequests() {
   for (OutputStage* output : toClose) output->wake();
 }
 
-void PaintStage::open(OutputStage& output) {
-  outputs_.push_back({.stage = &output, .taken = inFlight_.size()});
-  openInPainter(outputs_.back());
+/// Opens the outputs that are not open in the painter. One that it cannot paint for fails, and the
+/// others go on. Errors: kDeviceLost; where no output is open then, why one is not.
+hal::Result<void> PaintStage::openOutputs() {
+  std::vector<std::pair<OutputStage*, hal::Error>> refused;
+  for (Output& output : outputs_) {
+    if (output.isOpen || output.stage->isRefused()) continue;
+    output.format = output.stage->format();
+    try {
+      painter_->open(nextId_, output.format);
+    } catch (const hal::Failure& error) {
+      if (error.error().kind == hal::ErrorKind::kDeviceLost) return tl::unexpected(error.error());
+      refused.emplace_back(output.stage, error.error());
+      continue;
+    }
+    output.id = nextId_++;
+    output.isOpen = true;
+    output.taken = inFlight_.size();
+    offer(output);
+  }
+  if (!refused.empty() && countOpen() == 0) return tl::unexpected(refused.front().second);
+  for (const auto& [stage, error] : refused) stage->refuse(error);
+  return {};
 }
 
-void PaintStage::openInPainter(Output& output) {
-  output.id = nextId_++;
-  output.format = output.stage->format();
-  if (!painter_) return;
-  try {
-    painter_->open(output.id, output.format);
-    offer(output);
-  } catch (const hal::Failure& error) {
-    lose(error.error());
-  }
+std::size_t PaintStage::countOpen() const {
+  return static_cast<std::size_t>(std::ranges::count_if(outputs_, &Output::isOpen));
 }
 
 /// The painter's imports belong to one opening of the output.
@@ -171,6 +179,7 @@ void PaintStage::offer(const Output& output) {
 void PaintStage::followLoans() {
   for (const Output& output : outputs_) {
     if (!painter_) return;
+    if (!output.isOpen) continue;
     SurfaceLending& lending = output.stage->lending();
     const std::shared_ptr<const SurfaceLoan> loan = lending.toImport();
     // Of a stream that the painter has not been opened for yet.
@@ -186,6 +195,7 @@ void PaintStage::followLoans() {
 void PaintStage::takeSurfaces() {
   taken_.clear();
   for (const Output& output : outputs_) {
+    if (!output.isOpen) continue;
     if (const auto surface = output.stage->takeSurface()) {
       taken_.emplace_back(output.stage, *surface);
       painter_->drawNextInto(output.id, *surface);
@@ -198,40 +208,39 @@ void PaintStage::giveSurfacesBack() {
   for (const auto& [stage, surface] : taken_) stage->lending().giveBack(surface);
 }
 
-/// Ends the frames in flight that an output has not got.
-void PaintStage::dropInFlight(const Output& output) {
+/// Ends the frames in flight that an output has not got, and closes it.
+void PaintStage::closeInPainter(Output& output) {
+  if (!std::exchange(output.isOpen, false)) return;
   for (std::size_t i = output.taken; i < inFlight_.size(); ++i) {
     if (inFlight_[i].ticket) ledger_.end(*inFlight_[i].ticket, Outcome::kStopped);
     --inFlight_[i].pendingOutputs;
   }
+  if (painter_) painter_->close(output.id);
 }
 
 void PaintStage::close(OutputStage& output) {
   const auto closed = std::ranges::find(outputs_, &output, &Output::stage);
   if (closed == outputs_.end()) return;
-  dropInFlight(*closed);
-  if (painter_) painter_->close(closed->id);
+  closeInPainter(*closed);
   outputs_.erase(closed);
 }
 
 /// Outputs that were opened again may want other pictures than before.
 void PaintStage::followFormats() {
+  if (!painter_) return;  // the next one is opened with the formats of that time
   for (Output& output : outputs_) {
     const hal::OutputFormat format = output.stage->format();
-    if (!painter_) return;  // the next one is made with the formats of that time
-    if (format.frame == output.format.frame && format.quarterTurns == output.format.quarterTurns) {
-      continue;
-    }
-    dropInFlight(output);
-    output.taken = inFlight_.size();
-    painter_->close(output.id);
-    openInPainter(output);
+    const bool isSame =
+        format.frame == output.format.frame && format.quarterTurns == output.format.quarterTurns;
+    if (!isSame) closeInPainter(output);
   }
+  if (const auto opened = openOutputs(); !opened) lose(opened.error());
 }
 
 bool PaintStage::collect() {
   bool tookAny = false;
   for (std::size_t i = 0; painter_ && i < outputs_.size(); ++i) {
+    if (!outputs_[i].isOpen) continue;
     while (painter_ && outputs_[i].taken < inFlight_.size() && collectFor(outputs_[i])) {
       tookAny = true;
     }
@@ -248,7 +257,9 @@ void PaintStage::removeFinished() {
   while (!inFlight_.empty() && inFlight_.front().pendingOutputs == 0) {
     finished(inFlight_.front(), clock_.now());
     inFlight_.erase(inFlight_.begin());
-    for (Output& output : outputs_) --output.taken;
+    for (Output& output : outputs_) {
+      if (output.isOpen) --output.taken;
+    }
   }
 }
 
@@ -307,7 +318,7 @@ bool PaintStage::paintNewest() {
 
 hal::Result<void> PaintStage::paint(const ArrivedFrame& arrived) {
   const hal::CapturedFrame& frame = arrived.frame;
-  if (outputs_.empty()) {
+  if (countOpen() == 0) {
     ledger_.end(arrived.ticket, Outcome::kOutputFailed);
     return {};
   }
@@ -322,7 +333,7 @@ hal::Result<void> PaintStage::paint(const ArrivedFrame& arrived) {
                     .captured = frame.captureTime,
                     .arrived = arrived.arrived,
                     .began = clock_.now(),
-                    .pendingOutputs = outputs_.size()};
+                    .pendingOutputs = countOpen()};
   {
     const std::scoped_lock lock(mutex_);
     painting.quality = governor_.level();
@@ -339,7 +350,7 @@ hal::Result<void> PaintStage::paint(const ArrivedFrame& arrived) {
     ledger_.end(arrived.ticket, Outcome::kPaused);
     painting.ticket.reset();
   } else {
-    ledger_.split(arrived.ticket, static_cast<int>(outputs_.size()));
+    ledger_.split(arrived.ticket, static_cast<int>(painting.pendingOutputs));
   }
   inFlight_.push_back(painting);
   const std::scoped_lock lock(mutex_);
@@ -387,9 +398,14 @@ void PaintStage::endInFlight(Outcome outcome) {
   for (Output& output : outputs_) output.taken = 0;
 }
 
+void PaintStage::destroyPainter() {
+  painter_.reset();
+  for (Output& output : outputs_) output.isOpen = false;
+}
+
 /// Handles a lost GPU: destroys the painter and ends its frames.
 void PaintStage::lose(const hal::Error& error) {
-  painter_.reset();
+  destroyPainter();
   endInFlight(Outcome::kContextLost);
   reviveAt_ = clock_.now() + reviveAfter_;
   reviveAfter_ = std::min(2 * reviveAfter_, kMaxRevivalDelay);
@@ -436,7 +452,7 @@ void PaintStage::limitQuality(std::size_t best) {
 void PaintStage::retireIfIdle() {
   if (!isToRenew_ || (painter_ && !inFlight_.empty())) return;
   isToRenew_ = false;
-  painter_.reset();
+  destroyPainter();
   reviveAt_ = clock_.now();
   const std::scoped_lock lock(mutex_);
   hasPainter_ = false;
@@ -455,7 +471,7 @@ void PaintStage::wait() {
 void PaintStage::stop() {
   endInFlight(Outcome::kStopped);
   if (const auto waiting = frames_.take()) ledger_.end(waiting->ticket, Outcome::kStopped);
-  painter_.reset();
+  destroyPainter();
   busy_ = 0;
 }
 

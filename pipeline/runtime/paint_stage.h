@@ -46,7 +46,7 @@ class PaintStage {
   PaintStage(const PaintStage&) = delete;
   PaintStage& operator=(const PaintStage&) = delete;
 
-  /// Makes the painter. Throws hal::Failure.
+  /// Makes the painter. Throws hal::Failure; also where it can be opened for none of the outputs.
   void start();
   /// Collects finished frames and begins to paint the newest one. Returns whether it did either.
   bool step();
@@ -130,7 +130,8 @@ class PaintStage {
   };
   struct Output {
     OutputStage* stage = nullptr;
-    std::size_t id = 0;        ///< its number in the painter
+    bool isOpen = false;       ///< in the painter
+    std::size_t id = 0;        ///< its number there
     hal::OutputFormat format;  ///< that the painter brings its frames to
     std::size_t taken = 0;  ///< number of the first frames of inFlight_ that it has got or missed
   };
@@ -140,14 +141,14 @@ class PaintStage {
   void noteSuspension();
   void handleRequests();
   void followFormats();
-  void open(OutputStage& output);
-  void openInPainter(Output& output);
+  hal::Result<void> openOutputs();
+  std::size_t countOpen() const;
   void offer(const Output& output);
   void followLoans();
   void takeSurfaces();
   void giveSurfacesBack();
   void close(OutputStage& output);
-  void dropInFlight(const Output& output);
+  void closeInPainter(Output& output);
   bool collect();
   bool collectFor(Output& output);
   void removeFinished();
@@ -159,6 +160,7 @@ class PaintStage {
   void hold(const hal::CapturedFrame& frame);
   void refuse(const ArrivedFrame& arrived, const hal::Error& error);
   void endInFlight(Outcome outcome);
+  void destroyPainter();
   void lose(const hal::Error& error);
   bool revive();
   void retireIfIdle();

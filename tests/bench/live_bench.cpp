@@ -62,11 +62,10 @@ Late runLive(hal::FrameSize size, const std::string& style, hal::Duration latenc
   app::LiveControls controls(
       {.style = style, .painting = {.style = styles::styleKind(style).defaults, .view = {}}});
   chain.makePaintStage(
-      [&](const auto& formats) -> std::unique_ptr<runtime::FramePainter> {
-        if (style == "none") return std::make_unique<support::PassThroughPainter>(formats.size());
+      [&]() -> std::unique_ptr<runtime::FramePainter> {
+        if (style == "none") return std::make_unique<support::PassThroughPainter>();
         const PainterOptions options{.pictureSize = size, .style = style, .qualityLevels = true};
-        return std::make_unique<app::LivePainter>(options, formats, controls,
-                                                  controls.parameters());
+        return std::make_unique<app::LivePainter>(options, controls, controls.parameters());
       },
       {.governor = {.levels = qualityLevels().size(), .pinned = {}},
        .latency = {.configured = latency},

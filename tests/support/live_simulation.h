@@ -118,6 +118,7 @@ struct SimulatedGpu {
       [](std::uint64_t, std::size_t) { return std::chrono::milliseconds(20); };
   std::function<bool(std::uint64_t sequence)> isLostAt = [](std::uint64_t) { return false; };
   int failingStarts = 0;  ///< how many of the next painters cannot be created
+  int widest = 4096;      ///< output that it can paint for
   int painters = 0;       ///< that exist now
   int made = 0;
   std::optional<hal::TimePoint> nextReady;
@@ -138,9 +139,7 @@ struct SimulatedGpu {
 /// Paints one frame after another.
 class SimulatedPainter final : public runtime::FramePainter {
  public:
-  SimulatedPainter(SimulatedGpu& gpu, const std::vector<hal::OutputFormat>& outputs,
-                   hal::Clock& clock)
-      : gpu_(gpu), formats_(outputs), clock_(clock), taken_(outputs.size(), 0u) {
+  SimulatedPainter(SimulatedGpu& gpu, hal::Clock& clock) : gpu_(gpu), clock_(clock) {
     ++gpu_.painters;
     ++gpu_.made;
     gpu_.nextReady.reset();
@@ -178,6 +177,11 @@ class SimulatedPainter final : public runtime::FramePainter {
 
   void open(std::size_t output, const hal::OutputFormat& format) override {
     assert(output == taken_.size());
+    if (format.frame.size.width > gpu_.widest) {
+      throw hal::Failure({.kind = hal::ErrorKind::kUnsupported,
+                          .subject = "GPU",
+                          .problem = "does not paint so wide"});
+    }
     formats_.push_back(format);
     taken_.emplace_back(done_ + work_.size());
   }
@@ -281,6 +285,9 @@ class CapturingOutput final : public hal::MemoryOutput {
         .frame = {.pixelFormat = hal::PixelFormat::kGrey8, .size = request.size},
         .refresh = refresh_};
   }
+  hal::Result<hal::OutputFormat> reconfigure(const hal::OutputRequest& request) override {
+    return start(request);
+  }
   hal::Result<void> write(const hal::ImageView&, hal::Duration time) override {
     notes_.push_back({time, clock_.now()});
     return {};
@@ -322,15 +329,14 @@ class LiveSimulation {
   }
   void start() {
     chain->makePaintStage(
-        [this](const std::vector<hal::OutputFormat>& outputs)
-            -> std::unique_ptr<runtime::FramePainter> {
+        [this]() -> std::unique_ptr<runtime::FramePainter> {
           if (gpu.failingStarts > 0) {
             --gpu.failingStarts;
             throw hal::Failure({.kind = hal::ErrorKind::kUnsupported,
                                 .subject = "GPU",
                                 .problem = "is still gone"});
           }
-          return std::make_unique<SimulatedPainter>(gpu, outputs, clock);
+          return std::make_unique<SimulatedPainter>(gpu, clock);
         },
         painting);
     chain->paint().start();

@@ -13,8 +13,6 @@ namespace pleinair::support {
 /// A painter without a GPU: passes each frame to all outputs at once, grey, at the frame's size.
 class PassThroughPainter final : public runtime::FramePainter {
  public:
-  explicit PassThroughPainter(std::size_t outputs) : waiting_(outputs), isOpen_(outputs, true) {}
-
   hal::Result<void> paint(const hal::CapturedFrame& frame, std::size_t) override {
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       if (isOpen_[i]) waiting_[i].push_back(frame);

@@ -9,6 +9,7 @@ OutputProgress progressOf(const runtime::OutputStage::Status& output, bool isScr
   return {.name = output.name,
           .shown = output.presented + output.waitingShown,
           .paintings = output.presented,
+          .skipped = output.skipped,
           .submitted = output.submitted,
           .steps = output.steps,
           .isExcused = output.isFailed || output.suspension.has_value(),
@@ -34,7 +35,7 @@ bool PresentationWatch::hasAdvanced(const OutputProgress& output) const {
   const auto before = before_.find(output.name);
   if (before == before_.end()) return true;
   const OutputProgress& then = before->second;
-  if (output.shown > then.shown) return true;
+  if (output.shown > then.shown || output.skipped > then.skipped) return true;
   const bool isIdle = (!output.isScreen || waitsForTrigger_) && output.submitted == then.submitted;
   return (output.isExcused || isIdle) && output.steps > then.steps;
 }

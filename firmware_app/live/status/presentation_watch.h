@@ -15,6 +15,7 @@ struct OutputProgress {
   std::string name;
   std::uint64_t shown = 0;      ///< frames and waiting pictures that people have seen
   std::uint64_t paintings = 0;  ///< the frames among them
+  std::uint64_t skipped = 0;    ///< frames that it could have shown, but nothing took them
   std::uint64_t submitted = 0;  ///< frames that it was to show
   std::uint64_t steps = 0;      ///< turns of its thread
   /// It cannot show anything now and says why: a display that is unplugged, off or not in front.
@@ -45,10 +46,9 @@ class PresentationWatch {
 
   /// Whether an output has shown a picture of any kind.
   bool hasShown() const;
-  /// Whether since the last call that returned true every output has shown something, or had
-  /// nothing to show or was excused while its thread turned, and painting does not hang. Where a
-  /// camera waits for its trigger, there is nothing to show. False
-  /// without outputs.
+  /// Whether since the last call that returned true every output has shown or skipped something,
+  /// or had nothing to show or was excused while its thread turned, and painting does not hang.
+  /// Where a camera waits for its trigger, there is nothing to show. False without outputs.
   bool takeProgress();
 
  private:

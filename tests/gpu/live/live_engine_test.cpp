@@ -42,8 +42,8 @@ class LiveEngine {
     const auto format = *output->start({.size = kSize, .framePeriod = {}});
     chain_.addOutput(std::move(output), format, {.name = "noting", .waiting = 16});
     chain_.makePaintStage(
-        [this, options](const auto& formats) {
-          return std::make_unique<LivePainter>(options, formats, controls_, controls_.parameters());
+        [this, options] {
+          return std::make_unique<LivePainter>(options, controls_, controls_.parameters());
         },
         {.governor = {.levels = qualityLevels().size(), .pinned = {}},
          .latency = {},

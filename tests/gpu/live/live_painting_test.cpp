@@ -181,7 +181,8 @@ TEST(LivePainter, MakesNoBrushInAFrameWhateverTheLook) {
                        .style = "painterly",
                        .tracksTags = false,
                        .expectedFormat = kFormat},
-                      {hal::OutputFormat{.frame = kFormat}}, controls, controls.parameters());
+                      controls, controls.parameters());
+  painter.open(0, {.frame = kFormat});
   const std::uint64_t before = styles::brushesMade();
   EXPECT_GT(before, 0U);
   const hal::Image image = support::testPicture(kFormat, 1);

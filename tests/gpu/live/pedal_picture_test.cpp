@@ -160,7 +160,7 @@ class PedalPictureTest : public support::NeedsGpu {
     const auto format = *output->start({.size = kSize});
     output_ = &pipeline_->addOutput(std::move(output), format, {.name = "watched", .waiting = 16});
     pipeline_->makePaintStage(
-        [this](const std::vector<hal::OutputFormat>& formats) {
+        [this] {
           return std::make_unique<LivePainter>(
               PainterOptions{
                   .pictureSize = kSize,
@@ -169,7 +169,7 @@ class PedalPictureTest : public support::NeedsGpu {
                   .expectedFormat =
                       hal::FrameFormat{.pixelFormat = hal::PixelFormat::kGrey8, .size = kSize},
                   .overlay = true},
-              formats, controls_, controls_.parameters());
+              controls_, controls_.parameters());
         },
         {.governor = {},
          .latency = {.configured = kLatency, .maximum = kLatency},

@@ -38,10 +38,6 @@ using namespace std::chrono_literals;
 /// Paints each frame in one grey: that of its first pixel.
 class GreyPainter final : public runtime::FramePainter {
  public:
-  explicit GreyPainter(const std::vector<hal::OutputFormat>& outputs) {
-    for (std::size_t i = 0; i < outputs.size(); ++i) open(i, outputs[i]);
-  }
-
   hal::Result<void> paint(const hal::CapturedFrame& frame, std::size_t) override {
     for (Open& each : outputs_) {
       each.inFlight.push_back({.sequence = frame.sequence,
@@ -105,9 +101,8 @@ int run(const std::string& source, double rate, std::uint64_t frames, const std:
   options.reopen = {};
   options.log = &log.log();
   runtime::OutputStage& output = pipeline.addOutput(std::move(display), format, std::move(options));
-  pipeline.makePaintStage(
-      [](const auto& formats) { return std::make_unique<GreyPainter>(formats); },
-      app::paintRules(settings, stream));
+  pipeline.makePaintStage([] { return std::make_unique<GreyPainter>(); },
+                          app::paintRules(settings, stream));
   threads.startPainter();
   while (!threads.isPainterReady()) std::this_thread::sleep_for(1ms);
   threads.startOutputs();

@@ -236,6 +236,56 @@ TEST_F(LivePipelineTest, PaintsOnWithANewContextWhenOneIsLost) {
   expectSumsToAgree();
 }
 
+TEST_F(LivePipelineTest, PaintsOnBesideAnOutputThatItCannotPaintFor) {
+  begin();
+  live_.gpu.widest = 16;
+  std::vector<support::CapturingOutput::Note> wideNotes;
+  OutputStageOptions options{.name = "wide", .waiting = 16};
+  options.request = {.size = {32, 6}};
+  options.reopen = [&]() -> hal::Result<std::unique_ptr<hal::Output>> {
+    return std::make_unique<support::CapturingOutput>(wideNotes, live_.clock);
+  };
+  auto output = *options.reopen();
+  const auto format = *output->start(options.request);
+  OutputStage& wide = live_.chain->addOutput(std::move(output), format, std::move(options));
+  live_.runFor(20s);
+  EXPECT_EQ(status().painting.contextLosses, 0U);
+  EXPECT_GT(live_.notes.size(), 580U);
+  EXPECT_TRUE(wideNotes.empty());
+  ASSERT_TRUE(wide.status().isFailed);
+  EXPECT_EQ(wide.status().failure->problem, "does not paint so wide");
+  EXPECT_EQ(wide.status().failures, 7U) << "it is tried again, ever more rarely";
+
+  live_.chain->paint().renew();
+  live_.runFor(1s);
+  EXPECT_TRUE(status().painting.hasPainter) << "also another painter";
+  wide.reconfigure({.size = {16, 6}});
+  live_.runFor(10s);
+  EXPECT_FALSE(wide.status().isFailed);
+  EXPECT_GT(wideNotes.size(), 100U);
+  EXPECT_GT(live_.notes.size(), 900U);
+  expectSumsToAgree();
+}
+
+TEST_F(LivePipelineTest, HasNoPainterWhereItCanPaintForNoOutput) {
+  begin();
+  live_.runFor(1s);
+  live_.gpu.widest = 16;
+  live_.chain->output(0).reconfigure({.size = {32, 6}});
+  live_.runFor(2s);
+  EXPECT_FALSE(status().painting.hasPainter);
+  EXPECT_EQ(status().painting.failure->problem, "does not paint so wide");
+  live_.chain->output(0).reconfigure({.size = {16, 6}});
+  live_.runFor(10s);
+  EXPECT_TRUE(status().painting.hasPainter);
+  EXPECT_EQ(live_.gpu.painters, 1);
+  expectSumsToAgree();
+  live_.chain->paint().stop();
+  live_.gpu.widest = 4;
+  EXPECT_THROW(live_.chain->paint().start(), hal::Failure);
+  EXPECT_EQ(live_.gpu.painters, 0);
+}
+
 TEST_F(LivePipelineTest, FinishesItsFramesBeforeAnotherPainterIsMade) {
   begin({.frames = 300});
   live_.runFor(3s);

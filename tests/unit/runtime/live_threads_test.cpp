@@ -77,11 +77,10 @@ class Live {
       const hal::OutputFormat format = formatOf(*output);
       chain_.addOutput(std::move(output), format, options());
     }
-    chain_.makePaintStage(
-        [outputs](const auto&) { return std::make_unique<PassThroughPainter>(outputs); },
-        {.governor = {.levels = 5, .pinned = {}},
-         .latency = {.configured = 20ms},
-         .framePeriod = period});
+    chain_.makePaintStage([] { return std::make_unique<PassThroughPainter>(); },
+                          {.governor = {.levels = 5, .pinned = {}},
+                           .latency = {.configured = 20ms},
+                           .framePeriod = period});
     threads_.startPainter();
     while (!threads_.isPainterReady()) std::this_thread::sleep_for(1ms);
     threads_.startOutputs();

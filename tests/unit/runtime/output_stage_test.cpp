@@ -208,6 +208,7 @@ TEST_F(OutputStageTest, CallsNoPictureShownThatTheDeviceSkipped) {
   EXPECT_EQ(of(Outcome::kShown), 5u);
   EXPECT_EQ(of(Outcome::kOutputBusy), 5u);
   EXPECT_EQ(stage_->status().presented, 5u);
+  EXPECT_EQ(stage_->status().skipped, 5u);
   EXPECT_FALSE(stage_->status().isFailed);
   expectSumsToAgree();
 }

@@ -48,9 +48,7 @@ TEST(Soak, TwoHoursOfFramesLeaveMemoryFlat) {
     chain.addOutput(std::move(output), format, {.name = name, .waiting = 16});
   }
   chain.makePaintStage(
-      [](const auto& outputs) {
-        return std::make_unique<support::PassThroughPainter>(outputs.size());
-      },
+      [] { return std::make_unique<support::PassThroughPainter>(); },
       {.governor = {.levels = 5, .pinned = {}}, .latency = {}, .framePeriod = 33'333us});
   chain.paint().start();
   chain.capture().open();

@@ -65,10 +65,10 @@ class ScreensTest : public testing::Test {
   void beginToPaint() {
     while (!pipeline_.capture().status().format) pipeline_.capture().step(clock_.now());
     pipeline_.makePaintStage(
-        [this](const auto& formats) -> std::unique_ptr<runtime::FramePainter> {
+        [this]() -> std::unique_ptr<runtime::FramePainter> {
           if (isGpuGone_)
             throw hal::Failure({.kind = hal::ErrorKind::kUnsupported, .subject = "GPU"});
-          return std::make_unique<support::SimulatedPainter>(gpu_, formats, clock_);
+          return std::make_unique<support::SimulatedPainter>(gpu_, clock_);
         },
         {.governor = {.levels = 5, .pinned = {}}, .latency = {}, .framePeriod = 33'333us});
     pipeline_.paint().start();
