@@ -196,14 +196,8 @@ void main() {
   ivec2 cell = block * kLayerBlock + ivec2(gl_LocalInvocationID.xy);
   ivec2 size = imageSize(labels);
   if (any(greaterThanEqual(cell, size))) return;
-  vec2 px = (vec2(cell) + 0.5) * kLayerCellPixels;
-  vec2 from = px - backgroundShift(px);
-  vec3 now = texelFetch(picture, cell, 0).rgb;
   vec4 past = texelFetch(evidence, cell, 0);
   vec4 own = texelFetch(candidates, cell, 0);
-  bool isAnother = past.r < 0.0;
-  vec4 known = isInPicture(from) && !isAnother ? textureLod(background, inLayers(background, from), 0.0)
-                                 : vec4(now, 0.0);
   float others = 0.0;
   float changes = 0.0;
   float carried = 0.0;
@@ -244,6 +238,12 @@ void main() {
   // motion of movers reach beyond their outlines: neither makes such a place older. While the camera
   // moves, new parts of a mover would be taken for such places.
   bool hasLeft = isYoung && isStanding && isUncovered(cell, size);
+  vec2 px = (vec2(cell) + 0.5) * kLayerCellPixels;
+  vec2 from = px - backgroundShift(px);
+  vec3 now = texelFetch(picture, cell, 0).rgb;
+  bool isAnother = past.r < 0.0;
+  vec4 known = isInPicture(from) && !isAnother ? textureLod(background, inLayers(background, from), 0.0)
+                                 : vec4(now, 0.0);
   if (!hasLeft && isYoung && known.a >= 0.5) {
     maturity = max(maturity, maturityAround(cell, size, now, known.rgb));
   }

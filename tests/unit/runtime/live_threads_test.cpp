@@ -280,7 +280,7 @@ TEST(LiveThreadsTest, TellsWhatThePainterFailedWithAtTheStart) {
   BlockingOutput::Control control;
   chain.addOutput(std::make_unique<BlockingOutput>(control), {}, {.name = "output"});
   chain.makePaintStage(
-      [](const auto&) -> std::unique_ptr<FramePainter> {
+      []() -> std::unique_ptr<FramePainter> {
         throw hal::Failure({.kind = hal::ErrorKind::kUnsupported,
                             .subject = "GPU",
                             .problem = "is not there",
