@@ -81,16 +81,16 @@ Moved measuredAt(vec2 px, float object, int mover, bool isBesideMover, Moved flo
   bool isResting = !isOnMover && restsWithCamera && object == 0.0;
   if (isResting) return Moved(vec2(0.0), known.w, kSourcePicture | kStraight);
 
-  bool isPlain = isOnMover ? !hasOwn : !isBesideMover;  // like every place of the image
-  Moved image = isPlain ? bestOfImage(px, object, false, flowed, restError) : byPicture(px, false);
   if (hasOwn) {
     const float kError = 1.0;  // px
-    if (!restsWithCamera) own += image.displacement;
+    if (!restsWithCamera) own += byPicture(px, false).displacement;
     isFlowKnown = isFlowKnown && !isBesideAnother;
     if (isFlowKnown) own += seenPart(flowed.displacement - own, px + own);
     // The turn that flow shows within a few pixels is mostly its noise.
     return Moved(own, kError, kSourceFlow | kStraight);
   }
+  bool isPlain = isOnMover || !isBesideMover;  // like every place of the image
+  Moved image = isPlain ? bestOfImage(px, object, false, flowed, restError) : byPicture(px, false);
   if (object != 0.0) {
     if (isPlain) image.error = max(image.error, kMinError);
     return image;
@@ -102,19 +102,15 @@ Moved measuredAt(vec2 px, float object, int mover, bool isBesideMover, Moved flo
   return better(image, plane);
 }
 
-// On a real thing: the motion of its surface or the measured one. Where both are far apart, the less
-// certain one errs by the difference. A mover before the thing says nothing about it.
-Moved betterOnSurface(Moved measured, Moved surface, bool isBesideMover, Moved flowed,
-                      float restError) {
-  measured.error =
-      length(vec2(measured.error, contradicted(measured, surface.displacement, surface.error)));
+// The error of the motion of a real thing's surface, as flow and stillness see it. A mover before the
+// thing says nothing about it.
+float surfaceError(Moved surface, bool isBesideMover, Moved flowed, float restError) {
   if (!isBesideMover) {
     surface.error =
         length(vec2(surface.error, contradicted(surface, flowed.displacement, flowed.error)));
     surface.error = length(vec2(surface.error, contradicted(surface, vec2(0.0), restError)));
   }
-  surface.error = max(surface.error, kMinError);
-  return better(measured, surface);
+  return max(surface.error, kMinError);
 }
 
 bool isReal(uint object) { return object >= kRealObject; }
@@ -148,6 +144,8 @@ bool isNewlyKnown(uint object) {
   return onSurfaces && bodies[firstModel + object - kRealObject - 1u].turnsAbout.w == 0.0;
 }
 
+uint coveredFor(uint state) { return min((state >> kCoveredShift) + uint(256.0 * stepSeconds + 0.5), kMaxCovered); }
+
 void main() {
   uint slot = gl_GlobalInvocationID.x;
   if (slot >= slots) return;
@@ -156,7 +154,7 @@ void main() {
     anchors[slot].state = 0u;
     return;
   }
-  uint longer = min((state >> kCoveredShift) + uint(256.0 * stepSeconds + 0.5), kMaxCovered);
+  uint longer = coveredFor(state);
   bool isForgotten = float(longer) > 256.0 * memorySeconds;
   if (isDormant(state)) {
     uint flags = (state & (kDormant | kOnSurface | kHidden)) | (onSurfaces ? 0u : kHidden);
@@ -178,7 +176,6 @@ void main() {
   }
   bool isOnMover = (state & kMover) != 0u;
   int mover = isOnMover ? moverOf(state) : 0;
-  bool wasCovered = (state & kCovered) != 0u;
   uint thing = object;  // that the camera image shows here
   if (isOnMover) {
     ivec2 there = pixelAt(px);
@@ -188,15 +185,34 @@ void main() {
   bool isBesideMover = !isOnMover && known.z != 0.0 && isNearMover(px);
   Moved flowed = byFlow(px);
   float restError = stillError(px);
-  Moved moved = measuredAt(px, float(thing), mover, isBesideMover, flowed, restError);
-  if (!isOnMover && onSurfaces && (state & kSourceBits) == kSourceSurface && isReal(object)) {
+  bool hasSurface =
+      !isOnMover && onSurfaces && (state & kSourceBits) == kSourceSurface && isReal(object);
+  float errorOnSurface = kUnknownError;
+  if (hasSurface) {
     Moved surfaceMoved = Moved(anchors[slot].displacement, anchors[slot].error, kSourceSurface);
-    moved = betterOnSurface(moved, surfaceMoved, isBesideMover, flowed, restError);
+    errorOnSurface = surfaceError(surfaceMoved, isBesideMover, flowed, restError);
+  }
+  Moved moved = measuredAt(px, float(thing), mover, isBesideMover, flowed, restError);
+  if (hasSurface) {
+    // Where both are far apart, the less certain one errs by the difference.
+    vec2 displacement = anchors[slot].displacement;
+    moved.error = length(vec2(moved.error, contradicted(moved, displacement, anchors[slot].error)));
+    moved = better(moved, Moved(displacement, errorOnSurface, kSourceSurface));
   }
   if (moved.source != kSourceSurface) anchors[slot].jacobian = turnOf(moved, px, false);
   anchors[slot].displacement = moved.displacement;
   anchors[slot].error = moved.error;
-  px += moved.displacement;
+  uint source = moved.source & kSourceBits;
+  memoryBarrierBuffer();
+  px = anchors[slot].px + anchors[slot].displacement;
+  state = anchors[slot].state;
+  surface = anchors[slot].surface;
+  object = objectOf(surface);
+  isOnMover = (state & kMover) != 0u;
+  mover = isOnMover ? moverOf(state) : 0;
+  bool wasCovered = (state & kCovered) != 0u;
+  longer = coveredFor(state);
+  isForgotten = float(longer) > 256.0 * memorySeconds;
   bool isGone = any(lessThan(px, vec2(-margin))) || any(greaterThan(px, fullSize + margin));
   ivec2 pixel = pixelAt(px);
   uint id = pixel.x >= 0 ? texelFetch(ids, pixel, 0).r : 0u;
@@ -268,5 +284,5 @@ void main() {
     isGone = isGone || (state & kDying) != 0u || isForgotten;
   }
   flags |= (isBehind ? kCovered : 0u) | (isOnMover ? stateOnMover(mover) : 0u);
-  anchors[slot].state = isGone ? 0u : flags | (moved.source & kSourceBits) | (covered << kCoveredShift);
+  anchors[slot].state = isGone ? 0u : flags | source | (covered << kCoveredShift);
 }

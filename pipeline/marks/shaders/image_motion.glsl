@@ -327,11 +327,9 @@ Moved better(Moved a, Moved b) {
 // exceed the features' errors: the best estimate of both (a Kalman gain). `layer`: the real object
 // that px is on, or 0.
 Moved bestOfImage(vec2 px, float layer, bool backward, Moved flowed, float restError) {
-  Moved best = better(nothingKnown(), Moved(vec2(0.0), restError, kSourceStill));
-  best = better(best, flowed);
-
   float away;
   uint numbers = nearestFeatures(px, layer, backward, away);
+  Moved triangle = nothingKnown();
   Moved whole = byPicture(px, backward);
   if (away >= 0.0) {
     float share = clamp(away / 64.0, 0.1, 1.0);
@@ -367,16 +365,17 @@ Moved bestOfImage(vec2 px, float layer, bool backward, Moved flowed, float restE
       vec2 expected = hasPicture ? homographyShift(h, near.at) : mean;
       off = max(off, distance(near.shift, expected + parallax) - 2.0 * near.error);
     }
-    Moved triangle = byTriangle(px, neighboursOf(numbers, backward));
+    triangle = byTriangle(px, neighboursOf(numbers, backward));
     triangle.source |= numbers;
     triangle.error = length(vec2(triangle.error, 0.5 * share * off));
     triangle.error = length(vec2(triangle.error, contradicted(triangle, flowed.displacement, flowed.error)));
     triangle.error = length(vec2(triangle.error, contradicted(triangle, vec2(0.0), restError)));
-    best = better(best, triangle);
     whole.error = length(vec2(whole.error, off));
   }
   whole.error = length(vec2(whole.error, contradicted(whole, flowed.displacement, flowed.error)));
   whole.error = length(vec2(whole.error, contradicted(whole, vec2(0.0), restError)));
+  Moved best = better(nothingKnown(), Moved(vec2(0.0), restError, kSourceStill));
+  best = better(better(best, flowed), triangle);
   return better(best, whole);
 }
 

@@ -117,50 +117,45 @@ vec2 directionAt(vec2 px, Support on) {
   return vec2(-gradient.y, gradient.x);
 }
 
-// The colour of a patch or segment within a texel of the reduced image, where that mixes it.
-vec4 ownColour(vec2 px, Support on) {
-  vec4 sum = vec4(0.0);
-  int taps = on.isMixed && !on.isOnMover ? 9 : 0;
-  for (int i = 0; i < taps; ++i) {
-    vec2 at = px + 0.4 * paintTexel * (vec2(i % 3, i / 3) - 1.0);
-    if (!mayCover(on.label, labelAt(at))) continue;
-    sum += on.isModel ? textureLod(finePaint, at / fullSize, 0.0)
-                      : textureLod(fineGround, at / fullSize, 0.0);
-  }
-  return sum;
-}
-
-// The colour of a mover beside another one: of places around, those count that are more its own.
-vec4 ownOfMover(vec2 px, Support on) {
-  vec4 sum = vec4(0.0);
-  int taps = on.isMixed && on.isOnMover ? 9 : 0;
-  for (int i = 0; i < taps; ++i) {
-    vec2 at = px + paintTexel * (vec2(i % 3, i / 3) - 1.0);
-    vec3 shares = sharesAt(at);
-    float own = max(2.0 * shareOf(shares, on.mover) - sumOf(shares), 0.0);
-    sum += own * textureLod(moverPaint, at / fullSize, 0.0);
-  }
-  return sum;
-}
-
 // Whether a place is beyond the border of the stroke's mover, or of the background.
 bool isBeyond(vec2 px, Support on) {
   vec3 shares = sharesAt(px);
   return on.isOnMover ? shareOf(shares, on.mover) <= 0.5 : sumOf(shares) > 0.5;
 }
 
-// The colour of the stroke's own patch or layer, if any of it is near.
+// How much of the colour at a place is the stroke's own: of a patch or segment, all or nothing; of a
+// mover beside another one, what is more its own.
+float ownShareAt(vec2 px, Support on) {
+  if (!on.isOnMover) return mayCover(on.label, labelAt(px)) ? 1.0 : 0.0;
+  vec3 shares = sharesAt(px);
+  return max(2.0 * shareOf(shares, on.mover) - sumOf(shares), 0.0);
+}
+
+// The colour of the stroke's own patch or layer, if any of it is near. Where the reduced image mixes
+// it with others, that of places around. A compiler has no registers for two loops.
 vec3 colourAt(vec2 px, Support on) {
   const float kOthers = 1e-3;  // weight of the other layer
-  vec2 at = px / fullSize;
-  vec4 seen = ownColour(px, on);
-  if (seen.a <= 0.0) {
-    seen = on.isModel ? textureLod(modelPaint, at, 0.0) : textureLod(paint, at, 0.0);
+  vec4 seen = vec4(0.0);
+  float reach = (on.isOnMover ? 1.0 : 0.4) * paintTexel;
+  int taps = on.isMixed ? 9 : 0;
+  for (int i = 0; i < taps; ++i) {
+    vec2 there = px + reach * (vec2(i % 3, i / 3) - 1.0);
+    float own = ownShareAt(there, on);
+    if (own <= 0.0) continue;
+    there /= fullSize;
+    seen += own * (on.isModel     ? textureLod(finePaint, there, 0.0)
+                   : on.isOnMover ? textureLod(moverPaint, there, 0.0)
+                                  : textureLod(fineGround, there, 0.0));
   }
-  if (!on.isModel) {
-    vec4 mover = ownOfMover(px, on);
-    if (mover.a <= 0.0) mover = textureLod(moverPaint, at, 0.0);
-    seen = on.isOnMover ? mover + kOthers * seen : seen + kOthers * mover;
+  vec2 at = px / fullSize;
+  bool isMixture = seen.a <= 0.0;
+  if (on.isModel) {
+    if (isMixture) seen = textureLod(modelPaint, at, 0.0);
+  } else {
+    vec4 mover = textureLod(moverPaint, at, 0.0);
+    vec4 ground = textureLod(paint, at, 0.0);
+    if (isMixture) seen = on.isOnMover ? mover : ground;
+    seen += kOthers * (on.isOnMover ? ground : mover);
   }
   return seen.rgb / max(seen.a, 1e-4);
 }

@@ -36,7 +36,9 @@ float partOnPatch(vec2 from, vec2 to, Support on, inout float strayed) {
   float before = isDeep ? depthAt(from - pace) : 0.0;
   float here = isDeep ? depthAt(from) : 0.0;
   uint last = labelsAt(from);
-  for (float i = 1.0; i <= count; i += 1.0) {
+  float i = 1.0;
+  bool isStep = false;
+  for (; i <= count; i += 1.0) {
     vec2 at = from + i * pace;
     uint texel = labelsAt(at);
     bool isUnder = !on.isModel && isPatch(labelOfSurface(texel));
@@ -44,19 +46,21 @@ float partOnPatch(vec2 from, vec2 to, Support on, inout float strayed) {
       bool isSame = labelOfSurface(texel) == labelOfSurface(last);
       bool goesOn = isDeep && (isSame || isOverJoint(last, texel));
       strayed += length(pace);
-      if (!goesOn || strayed > kOverJoint) {
-        bool isEarly = stride > 1.0 && !mayCover(label, labelAt(at - 0.5 * pace));
-        return max(0.0, (i - (isEarly ? 0.75 : stride > 1.0 ? 0.25 : 0.5)) / count);
-      }
+      if (!goesOn || strayed > kOverJoint) break;
     }
     last = texel;
     if (!isDeep) continue;
     float next = depthAt(at);
-    if (isDepthStep(before - 2.0 * here + next, here)) return max(0.0, (i - 1.5) / count);
+    isStep = isDepthStep(before - 2.0 * here + next, here);
+    if (isStep) break;
     before = here;
     here = next;
   }
-  return 1.0;
+  if (i > count) return 1.0;
+  if (isStep) return max(0.0, (i - 1.5) / count);
+  vec2 at = from + i * pace;
+  bool isEarly = stride > 1.0 && !mayCover(label, labelAt(at - 0.5 * pace));
+  return max(0.0, (i - (isEarly ? 0.75 : stride > 1.0 ? 0.25 : 0.5)) / count);
 }
 
 // The anchor's place counts more than the rest of a fine stroke, or small lights would vanish. Coarser
@@ -97,14 +101,18 @@ bool reachesLabels(vec2 px) {
 
 const float kBehind = 0.025;  // of the image's width: so far strokes go on behind models
 
-// Walks an arm, ahead or behind, and stores it.
+// Ends an arm after so many steps.
+void endArm(int number, float length) { walked[number].length = min(steps, length); }
+
+// Walks an arm, ahead or behind, and stores it. Behind its end, only its directions go on.
 void walk(int side, vec2 from, Support on) {
   bool mayLeave = clips && reachesLabels(from);
   // The camera image goes on behind a model: strokes do, too, and are clipped where it is drawn. They
   // do not go far: nothing is known of what is there.
   bool goesBehind = mayLeave && !on.isModel;
   float left = kBehind * fullSize.x;
-  Arm arm = Arm(vec3(0.0), 0.0, steps);
+  int number = side * kWalkers + int(gl_LocalInvocationIndex);
+  walked[number] = Arm(vec3(0.0), 0.0, steps);
   bool goesOn = true;
   float before = 0.0;
   vec2 at = from;
@@ -118,53 +126,54 @@ void walk(int side, vec2 from, Support on) {
                      hand.y * direction.x + hand.x * direction.y);
     float along = dot(direction, heading);
     if (along < 0.0) direction = -direction;
-    if (goesOn && i > 0 && abs(along) < cutOff) {
-      goesOn = false;
-      arm.length = min(arm.length, float(i));
+    heading = direction;
+    ways[wayAt(side * kArm + i)] = heading;
+    vec2 start = at;
+    at += segment * heading;
+    if (!goesOn) continue;
+    goesOn = false;
+    if (i > 0 && abs(along) < cutOff) {
+      endArm(number, float(i));
+      continue;
     }
-    ways[wayAt(side * kArm + i)] = direction;
-    if (goesOn && mayLeave) {
+    if (mayLeave) {
       // An arm ends where another surface begins.
-      float part = partOnPatch(at, at + segment * direction, on, strayed);
+      float part = partOnPatch(start, at, on, strayed);
       if (part < 1.0) {
-        arm.length = min(arm.length, float(i) + part);
-        goesOn = false;
+        endArm(number, float(i) + part);
+        continue;
       }
     }
-    at += segment * direction;
-    if (goesBehind && goesOn && isPatch(labelAt(at))) {
-      if (left < segment) arm.length = min(arm.length, float(i) + left / segment);
+    if (goesBehind && isPatch(labelAt(at))) {
+      if (left < segment) endArm(number, float(i) + left / segment);
       goesOn = left >= segment;
       left -= segment;
-      heading = direction;
+      continue;
+    }
+    if (clips && isBeyond(at, on)) {
+      // It does not cross a mover's border.
+      bool isEarly = isBeyond(at - 0.5 * segment * heading, on);
+      endArm(number, float(i) + (isEarly ? 0.25 : 0.75));
+      continue;
+    }
+    if (detailAt(at, on) < 0.4 * detailBand.x) {
+      // A finer layer's stroke does not enter regions of coarser layers.
+      endArm(number, max(float(i) + 0.5, minSteps));
       continue;
     }
     vec3 own = walks[gl_LocalInvocationIndex].colour;
-    vec3 there = goesOn ? colourAt(at, on) : own;
+    vec3 there = colourAt(at, on);
     float difference = apart(there, own);
-    if (goesOn && clips && isBeyond(at, on)) {
-      // It does not cross a mover's border.
-      bool isEarly = isBeyond(at - 0.5 * segment * direction, on);
-      arm.length = min(arm.length, float(i) + (isEarly ? 0.25 : 0.75));
-      goesOn = false;
-    }
-    if (goesOn && detailAt(at, on) < 0.4 * detailBand.x) {
-      // A finer layer's stroke does not enter regions of coarser layers.
-      arm.length = min(arm.length, max(float(i) + 0.5, minSteps));
-      goesOn = false;
-    }
-    if (goesOn && difference > colourThreshold) {
+    if (difference > colourThreshold) {
       float part = clamp((colourThreshold - before) / max(difference - before, 1e-4), 0.0, 1.0);
-      arm.length = min(arm.length, max(float(i) + part, minSteps));
-      goesOn = false;
+      endArm(number, max(float(i) + part, minSteps));
+      continue;
     }
-    if (goesOn && float(i) < steps) {
-      float weight = 1.0 - 0.7 * difference / colourThreshold;
-      arm.colour += weight * there;
-      arm.weight += weight;
-    }
+    goesOn = true;
     before = difference;
-    heading = direction;
+    if (float(i) >= steps) continue;
+    float weight = 1.0 - 0.7 * difference / colourThreshold;
+    walked[number].colour += weight * there;
+    walked[number].weight += weight;
   }
-  walked[side * kWalkers + int(gl_LocalInvocationIndex)] = arm;
 }

@@ -12,6 +12,7 @@ MINUTES = 45  # to a painting: 3 on an idle machine
 # The watchdog's 10 s and the 5 s in which a stopped process does not end by itself, in the machine's own time.
 MOST_TO_RESTART = 15
 LOST_MINUTES = 6
+REPAIRED = "FILE SYSTEM WAS MODIFIED"
 IN_MEMORY = "lie in memory: the data partition cannot be written to"
 # Neither the virtual camera's driver nor the card's is loaded by itself. QEMU plugs in no card while a machine runs.
 NEITHER = (f"pleinair.software_gl {check.UNMITIGATED} modprobe.blacklist=virtio_gpu console=ttyS0 "
@@ -61,11 +62,29 @@ def _paints_without_data(disk, folder):
     os.remove(disk)
 
 
-def data_corrupted(images, folder):
-    """The first megabytes of the data partition are noise."""
-    disk = _copy(images.disk(), folder)
+def _fill_with_noise(disk, bytes_of):
+    """As many of the first bytes of the data partition as the function says of its size."""
     with Partition(disk, "data") as file, open(file, "r+b") as content:
-        content.write(os.urandom(4 << 20))
+        content.write(os.urandom(bytes_of(os.path.getsize(file))))
+
+
+def data_corrupted(images, folder):
+    """The first megabytes of the data partition are noise: it is repaired from its other superblocks."""
+    disk = _copy(images.disk(), folder)
+    _fill_with_noise(disk, lambda size: 4 << 20)
+    with Kiosk(kiosk.overlay(disk, os.path.join(folder, "disk.qcow2")), folder) as machine:
+        print(f"painting after {machine.paints(MINUTES):.0f} s", flush=True)
+        if machine.has_said(IN_MEMORY) or not machine.has_said(REPAIRED):
+            raise Failed("the data partition was not repaired: " + machine.journal()[-2000:])
+        if "ext4" not in machine.run("findmnt -n -o FSTYPE /data"):
+            raise Failed("the data partition is not in use")
+    os.remove(disk)
+
+
+def data_lost(images, folder):
+    """All of the data partition is noise."""
+    disk = _copy(images.disk(), folder)
+    _fill_with_noise(disk, lambda size: size)
     _paints_without_data(disk, folder)
 
 
@@ -259,5 +278,5 @@ def _saved(images, folder):
     return Kiosk(disk, folder, ("-loadvm", images.SAVED))
 
 
-SCENARIOS = {each.__name__: each for each in (data_corrupted, data_read_only, data_full, clock, late, wrong_sites, hung, slots_bad,
-                                                 gpu_lost)}
+SCENARIOS = {each.__name__: each for each in (data_corrupted, data_lost, data_read_only, data_full, clock, late, wrong_sites,
+                                                 hung, slots_bad, gpu_lost)}

@@ -2,8 +2,8 @@
 """Scenarios of the machine image and of its updates, in QEMU but for one. Each takes from two minutes to an hour and a half.
 
     image_test.py FOLDER_OF_IMAGES RESULTS prepare       makes what the others need, from `./dev image`'s root
-    image_test.py FOLDER_OF_IMAGES RESULTS SCENARIO      boot, crashes, install, updates, copies, data_corrupted, data_read_only,
-                                                 data_full, clock, late, wrong_sites, hung, slots_bad, gpu_lost, soak,
+    image_test.py FOLDER_OF_IMAGES RESULTS SCENARIO      boot, crashes, install, updates, copies, data_corrupted, data_lost,
+                                                 data_read_only, data_full, clock, late, wrong_sites, hung, slots_bad, gpu_lost, soak,
                                                  soak_in_chroot, or power_cut:SEED
 
 Exit status: 0; 1; 77, a skip: there is no image (./dev package; ./dev image), or a program is missing.
