@@ -24,6 +24,10 @@ PresentationRules rulesOf(hal::Output* output, const hal::OutputFormat& format,
   return rules;
 }
 
+bool isSame(const hal::OutputFormat& one, const hal::OutputFormat& other) {
+  return one.frame == other.frame && one.quarterTurns == other.quarterTurns;
+}
+
 bool isSame(const hal::OutputRequest& one, const hal::OutputRequest& other) {
   return one.size == other.size && one.framePeriod == other.framePeriod;
 }
@@ -222,8 +226,10 @@ void OutputStage::fail(hal::Error error) {
   lending_.restart();
 }
 
-void OutputStage::refuse(const hal::Error& error) {
+void OutputStage::refuse(const hal::OutputFormat& format, const hal::Error& error) {
+  assert(reopens());
   const std::scoped_lock lock(mutex_);
+  if (!isSame(format, format_)) return;
   isRefused_ = true;
   refusal_ = error;
   isWoken_ = true;
@@ -237,7 +243,10 @@ bool OutputStage::isRefused() const {
 
 void OutputStage::followRefusal() {
   const std::scoped_lock lock(mutex_);
-  if (refusal_) fail(*std::exchange(refusal_, std::nullopt));
+  if (!refusal_) return;
+  const hal::Error refusal = *std::exchange(refusal_, std::nullopt);
+  // One that is not there has a reason of its own.
+  if (!status_.isFailed) fail(refusal);
 }
 
 void OutputStage::tryToReopen() {
@@ -270,6 +279,7 @@ void OutputStage::started(const hal::OutputFormat& format) {
   refresh_ = format_.refresh;
   fillTime_ = {};
   isRefused_ = false;
+  refusal_.reset();  // of what it was before
   ++status_.starts;
 }
 

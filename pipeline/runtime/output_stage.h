@@ -106,8 +106,11 @@ class OutputStage {
   /// One for the next frame; nothing where it is to be read back.
   std::optional<hal::LentSurface> takeSurface();
 
-  /// The painter cannot paint for it: it fails at the next step().
-  void refuse(const hal::Error& error);
+  /// Whether it is opened again after a failure.
+  bool reopens() const { return options_.reopen != nullptr; }
+  /// The painter cannot paint for it: it fails at the next step(). `format`: for which that is so;
+  /// ignored where it has another one by now. Precondition: reopens().
+  void refuse(const hal::OutputFormat& format, const hal::Error& error);
   /// Whether that was so for what it was last opened as.
   bool isRefused() const;
 
@@ -173,7 +176,7 @@ class OutputStage {
     double perSecond = 0.0;
     std::uint64_t presented = 0;
     std::uint64_t waitingShown = 0;  ///< waiting pictures that a presentation event confirmed
-    std::uint64_t skipped = 0;       ///< frames that the output itself dropped
+    std::uint64_t skipped = 0;       ///< by a memory output: its reader was too slow
     std::uint64_t steps = 0;         ///< completed calls of step(): the output thread turns
     hal::Duration latencySum{0};     ///< over all presented frames
     /// Recent times from capture until write() was called; for surfaces, until they were shown.

@@ -141,18 +141,20 @@ void PaintStage::handleRequests() {
   for (OutputStage* output : toClose) output->wake();
 }
 
-/// Opens the outputs that are not open in the painter. One that it cannot paint for fails, and the
-/// others go on. Errors: kDeviceLost; where no output is open then, why one is not.
+/// Opens the outputs that are not open in the painter. One that it cannot paint for, and that is
+/// opened again by itself, fails, and the others go on. Errors: kDeviceLost; why one is not open
+/// that is not opened again, or where no other is open.
 hal::Result<void> PaintStage::openOutputs() {
-  std::vector<std::pair<OutputStage*, hal::Error>> refused;
+  std::vector<std::pair<const Output*, hal::Error>> refused;
   for (Output& output : outputs_) {
     if (output.isOpen || output.stage->isRefused()) continue;
     output.format = output.stage->format();
     try {
       painter_->open(nextId_, output.format);
     } catch (const hal::Failure& error) {
-      if (error.error().kind == hal::ErrorKind::kDeviceLost) return tl::unexpected(error.error());
-      refused.emplace_back(output.stage, error.error());
+      const bool isLost = error.error().kind == hal::ErrorKind::kDeviceLost;
+      if (isLost || !output.stage->reopens()) return tl::unexpected(error.error());
+      refused.emplace_back(&output, error.error());
       continue;
     }
     output.id = nextId_++;
@@ -161,7 +163,7 @@ hal::Result<void> PaintStage::openOutputs() {
     offer(output);
   }
   if (!refused.empty() && countOpen() == 0) return tl::unexpected(refused.front().second);
-  for (const auto& [stage, error] : refused) stage->refuse(error);
+  for (const auto& [output, error] : refused) output->stage->refuse(output->format, error);
   return {};
 }
 
@@ -366,8 +368,9 @@ hal::Result<void> PaintStage::paint(const ArrivedFrame& arrived) {
 /// and then: what spans frames stays near to what the camera sees, and power is saved.
 bool PaintStage::isSpared(hal::TimePoint now) const {
   constexpr hal::Duration kInterval = std::chrono::seconds(1);
-  return now - lastBegun_ < kInterval &&
-         std::ranges::all_of(outputs_, [](const Output& each) { return each.stage->isBlanked(); });
+  return now - lastBegun_ < kInterval && std::ranges::all_of(outputs_, [](const Output& each) {
+           return !each.isOpen || each.stage->isBlanked();
+         });
 }
 
 void PaintStage::hold(const hal::CapturedFrame& frame) {

@@ -27,8 +27,8 @@ void PresentationWatch::update(Seen seen, hal::TimePoint now) {
 }
 
 bool PresentationWatch::hasShown() const {
-  return std::ranges::any_of(seen_.outputs,
-                             [](const OutputProgress& each) { return each.shown > 0; });
+  return std::ranges::any_of(
+      seen_.outputs, [](const OutputProgress& each) { return each.shown + each.skipped > 0; });
 }
 
 bool PresentationWatch::hasAdvanced(const OutputProgress& output) const {

@@ -15,7 +15,7 @@ struct OutputProgress {
   std::string name;
   std::uint64_t shown = 0;      ///< frames and waiting pictures that people have seen
   std::uint64_t paintings = 0;  ///< the frames among them
-  std::uint64_t skipped = 0;    ///< frames that it could have shown, but nothing took them
+  std::uint64_t skipped = 0;    ///< frames that it had, but whose reader was too slow
   std::uint64_t submitted = 0;  ///< frames that it was to show
   std::uint64_t steps = 0;      ///< turns of its thread
   /// It cannot show anything now and says why: a display that is unplugged, off or not in front.
@@ -44,7 +44,8 @@ class PresentationWatch {
   };
   void update(Seen seen, hal::TimePoint now);
 
-  /// Whether an output has shown a picture of any kind.
+  /// Whether an output has shown a picture of any kind, or has had one that its reader did not
+  /// take.
   bool hasShown() const;
   /// Whether since the last call that returned true every output has shown or skipped something,
   /// or had nothing to show or was excused while its thread turned, and painting does not hang.

@@ -14,15 +14,17 @@ void SteadyPainting::update(const std::vector<OutputProgress>& outputs, hal::Tim
   if (now - *since_ >= kLasts) hasLasted_ = true;
 }
 
-/// Whether every output that can show something has shown a painting since this was last true.
+/// Whether every output that can show something, and is read, has shown a painting since this was
+/// last true.
 bool SteadyPainting::takePaintings(const std::vector<OutputProgress>& outputs) {
   bool hasAny = false;
   for (const OutputProgress& each : outputs) {
-    if (each.isExcused) continue;
-    if (each.paintings <= before_[each.name]) return false;
+    const OutputProgress& then = before_[each.name];
+    if (each.isExcused || each.skipped > then.skipped) continue;
+    if (each.paintings <= then.paintings) return false;
     hasAny = true;
   }
-  for (const OutputProgress& each : outputs) before_[each.name] = each.paintings;
+  for (const OutputProgress& each : outputs) before_[each.name] = each;
   return hasAny;
 }
 

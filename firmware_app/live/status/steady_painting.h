@@ -21,8 +21,8 @@ class SteadyPainting {
   /// A longer pause begins the minute anew: as long as the watchdog's period of the units.
   static constexpr hal::Duration kLongestPause = std::chrono::seconds(10);
 
-  /// To be called more often than a pause may last. Outputs that are excused need not show
-  /// anything, but without another one nothing is seen.
+  /// To be called more often than a pause may last. Outputs that are excused, or that nobody reads,
+  /// need not show anything, but without another one nothing is seen.
   void update(const std::vector<OutputProgress>& outputs, hal::TimePoint now);
   /// Once true, it stays so.
   bool hasLasted() const { return hasLasted_; }
@@ -30,7 +30,7 @@ class SteadyPainting {
  private:
   bool takePaintings(const std::vector<OutputProgress>& outputs);
 
-  std::map<std::string, std::uint64_t> before_;  ///< paintings by output, at the last progress
+  std::map<std::string, OutputProgress> before_;  ///< at the last progress
   std::optional<hal::TimePoint> since_;
   hal::TimePoint last_;
   bool hasLasted_ = false;

@@ -61,7 +61,7 @@ vec2 seenPart(vec2 displacement, vec2 px) {
   return inverse(seen + mat2(least)) * (seen * displacement);
 }
 
-// The motion of an anchor of the camera image. Each source is asked at one place of the text: what a
+// The motion of an anchor of the camera image. Each search is asked at one place of the text: what a
 // compiler inlines twice, it has no registers for.
 //
 // A mover moves as dense flow says where its texture shows it: it is not still, and the image's

@@ -148,13 +148,13 @@ vec3 colourAt(vec2 px, Support on) {
                                   : textureLod(fineGround, there, 0.0));
   }
   vec2 at = px / fullSize;
-  bool isMixture = seen.a <= 0.0;
+  bool hasNone = seen.a <= 0.0;
   if (on.isModel) {
-    if (isMixture) seen = textureLod(modelPaint, at, 0.0);
+    if (hasNone) seen = textureLod(modelPaint, at, 0.0);
   } else {
     vec4 mover = textureLod(moverPaint, at, 0.0);
     vec4 ground = textureLod(paint, at, 0.0);
-    if (isMixture) seen = on.isOnMover ? mover : ground;
+    if (hasNone) seen = on.isOnMover ? mover : ground;
     seen += kOthers * (on.isOnMover ? ground : mover);
   }
   return seen.rgb / max(seen.a, 1e-4);

@@ -267,6 +267,24 @@ TEST_F(LivePipelineTest, PaintsOnBesideAnOutputThatItCannotPaintFor) {
   expectSumsToAgree();
 }
 
+TEST_F(LivePipelineTest, GivesNoFilmUpThatItCannotPaintForJustNow) {
+  begin();
+  live_.runFor(1s);
+  std::vector<support::CapturingOutput::Note> filmNotes;
+  OutputStage& film = live_.addOutput(
+      std::make_unique<support::CapturingOutput>(filmNotes, live_.clock), {.name = "film"});
+  live_.runFor(1s);
+  live_.gpu.widest = 4;
+  live_.chain->paint().renew();
+  live_.runFor(1s);
+  live_.gpu.widest = 16;
+  const std::size_t before = filmNotes.size();
+  live_.runFor(10s);
+  EXPECT_FALSE(film.status().isFailed);
+  EXPECT_GT(filmNotes.size(), before + 100U);
+  expectSumsToAgree();
+}
+
 TEST_F(LivePipelineTest, HasNoPainterWhereItCanPaintForNoOutput) {
   begin();
   live_.runFor(1s);

@@ -213,6 +213,37 @@ TEST_F(OutputStageTest, CallsNoPictureShownThatTheDeviceSkipped) {
   expectSumsToAgree();
 }
 
+TEST_F(OutputStageTest, FailsWhereThePainterRefusesItAsItIs) {
+  const hal::Error refusal{.kind = hal::ErrorKind::kUnsupported, .subject = "GPU"};
+  begin(true);
+  hal::FrameFormat another = kFormat;
+  another.size.width *= 2;
+  stage_->refuse({.frame = another}, refusal);
+  EXPECT_FALSE(stage_->isRefused()) << "that was another display";
+  stage_->refuse({.frame = kFormat}, refusal);
+  EXPECT_TRUE(stage_->isRefused());
+  stage_->step();
+  EXPECT_TRUE(stage_->status().isFailed);
+  EXPECT_EQ(stage_->status().failure->subject, "GPU");
+  stage_->retry();
+  stage_->step();
+  EXPECT_FALSE(stage_->isRefused());
+  EXPECT_FALSE(stage_->status().isFailed);
+}
+
+TEST_F(OutputStageTest, KeepsItsOwnReasonWhereItIsNotThereYet) {
+  device_.isGone = true;
+  begin(true);
+  stage_->refuse({.frame = kFormat}, {.kind = hal::ErrorKind::kUnsupported, .subject = "GPU"});
+  stage_->step();
+  EXPECT_EQ(stage_->status().failure->subject, "device");
+  device_.isGone = false;
+  clock_.advance(1s);
+  stage_->step();
+  stage_->step();
+  EXPECT_FALSE(stage_->status().isFailed) << "it was refused before it was there";
+}
+
 TEST_F(OutputStageTest, OpensNothingMoreAtTheEnd) {
   begin(true);
   device_.isBroken = true;

@@ -86,6 +86,9 @@ TEST_F(PresentationWatchTest, ExcusesALoopbackThatNobodyReads) {
   ++seen_.outputs[0].shown;
   ++loopback.submitted;
   EXPECT_FALSE(progress()) << "it hangs";
+  seen_.outputs[0].shown = 0;
+  watch_.update(seen_, now_);
+  EXPECT_TRUE(watch_.hasShown()) << "the loopback had pictures";
 }
 
 TEST_F(PresentationWatchTest, IsThatOfAllOutputs) {

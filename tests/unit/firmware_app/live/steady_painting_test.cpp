@@ -49,6 +49,21 @@ TEST_F(SteadyPaintingTest, LastsForAMinuteOfPaintings) {
   EXPECT_TRUE(steady_.hasLasted());
 }
 
+TEST_F(SteadyPaintingTest, NeedsNoReaderOfALoopback) {
+  outputs_.push_back({.name = "loopback"});
+  const auto pass = [this](hal::Duration time, int displayed) {
+    for (const hal::TimePoint end = now_ + time; now_ < end;) {
+      outputs_[0].paintings += static_cast<unsigned>(displayed);
+      ++outputs_[1].skipped;
+      this->pass(100ms);
+    }
+  };
+  pass(61s, 0);
+  EXPECT_FALSE(steady_.hasLasted()) << "nobody has seen any";
+  pass(61s, 1);
+  EXPECT_TRUE(steady_.hasLasted());
+}
+
 TEST_F(SteadyPaintingTest, IsNotWaiting) {
   wait(10min);
   EXPECT_FALSE(steady_.hasLasted());
