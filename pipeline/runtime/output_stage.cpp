@@ -24,15 +24,15 @@ PresentationRules rulesOf(hal::Output* output, const hal::OutputFormat& format,
   return rules;
 }
 
-bool isSame(const hal::OutputFormat& one, const hal::OutputFormat& other) {
-  return one.frame == other.frame && one.quarterTurns == other.quarterTurns;
-}
-
 bool isSame(const hal::OutputRequest& one, const hal::OutputRequest& other) {
   return one.size == other.size && one.framePeriod == other.framePeriod;
 }
 
 }  // namespace
+
+bool haveSameFrames(const hal::OutputFormat& one, const hal::OutputFormat& other) {
+  return one.frame == other.frame && one.quarterTurns == other.quarterTurns;
+}
 
 OutputStage::OutputStage(std::unique_ptr<hal::Output> output, hal::OutputFormat format,
                          OutputStageOptions options, hal::Clock& clock, FrameLedger& ledger)
@@ -229,7 +229,7 @@ void OutputStage::fail(hal::Error error) {
 void OutputStage::refuse(const hal::OutputFormat& format, const hal::Error& error) {
   assert(reopens());
   const std::scoped_lock lock(mutex_);
-  if (!isSame(format, format_)) return;
+  if (!haveSameFrames(format, format_)) return;
   isRefused_ = true;
   refusal_ = error;
   isWoken_ = true;

@@ -38,6 +38,9 @@ hal::Result<hal::Fence> copyImage(const hal::ImageView& image, hal::SurfaceOutpu
 hal::Result<hal::Fence> copyOutputFrame(const OutputFrame& frame, hal::SurfaceOutput& output,
                                         const hal::Surface& surface);
 
+/// Whether the frames for two outputs are alike; their refresh may differ.
+bool haveSameFrames(const hal::OutputFormat& one, const hal::OutputFormat& other);
+
 struct OutputStageOptions {
   std::string name;
   PresentationRules rules;

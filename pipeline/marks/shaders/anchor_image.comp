@@ -144,7 +144,10 @@ bool isNewlyKnown(uint object) {
   return onSurfaces && bodies[firstModel + object - kRealObject - 1u].turnsAbout.w == 0.0;
 }
 
-uint coveredFor(uint state) { return min((state >> kCoveredShift) + uint(256.0 * stepSeconds + 0.5), kMaxCovered); }
+// For how long it will have been covered or dormant, in 1/256 s, if it still is.
+uint coveredFor(uint state) {
+  return min((state >> kCoveredShift) + uint(256.0 * stepSeconds + 0.5), kMaxCovered);
+}
 
 void main() {
   uint slot = gl_GlobalInvocationID.x;
@@ -203,6 +206,7 @@ void main() {
   anchors[slot].displacement = moved.displacement;
   anchors[slot].error = moved.error;
   uint source = moved.source & kSourceBits;
+  // All but the source is read again: no compiler has registers for it through the search.
   memoryBarrierBuffer();
   px = anchors[slot].px + anchors[slot].displacement;
   state = anchors[slot].state;

@@ -62,16 +62,16 @@ def _paints_without_data(disk, folder):
     os.remove(disk)
 
 
-def _fill_with_noise(disk, bytes_of):
-    """As many of the first bytes of the data partition as the function says of its size."""
+def _fill_with_noise(disk, most=None):
+    """The data partition, or its first bytes."""
     with Partition(disk, "data") as file, open(file, "r+b") as content:
-        content.write(os.urandom(bytes_of(os.path.getsize(file))))
+        content.write(os.urandom(most or os.path.getsize(file)))
 
 
 def data_corrupted(images, folder):
     """The first megabytes of the data partition are noise: it is repaired from its other superblocks."""
     disk = _copy(images.disk(), folder)
-    _fill_with_noise(disk, lambda size: 4 << 20)
+    _fill_with_noise(disk, 4 << 20)
     with Kiosk(kiosk.overlay(disk, os.path.join(folder, "disk.qcow2")), folder) as machine:
         print(f"painting after {machine.paints(MINUTES):.0f} s", flush=True)
         if machine.has_said(IN_MEMORY) or not machine.has_said(REPAIRED):
@@ -84,7 +84,7 @@ def data_corrupted(images, folder):
 def data_lost(images, folder):
     """All of the data partition is noise."""
     disk = _copy(images.disk(), folder)
-    _fill_with_noise(disk, lambda size: size)
+    _fill_with_noise(disk)
     _paints_without_data(disk, folder)
 
 
