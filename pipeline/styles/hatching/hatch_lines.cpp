@@ -209,6 +209,8 @@ void HatchLines::layOut(const scene::ArFrame& frame, const Inputs& inputs, const
       .set("paint", rule.paint)
       .set("rankColour", rule.rankColour)
       .texture("colours", inputs.colours != nullptr ? *inputs.colours : *frame.colour)
+      .texture("movers", layerTextures_.labelsOf(inputs.movers))
+      .texture("background", layerTextures_.backgroundOf(inputs.movers))
       .set("colour", rule.colour);
   bindHatchTone(lay_, frame, *inputs.tone, rule);
   lay_.dispatch({static_cast<int>(slots_), 1}, GL_SHADER_STORAGE_BARRIER_BIT);

@@ -81,6 +81,39 @@ TEST_F(HatchMovers, HaveLinesOfTheirOwnAndLeaveTheOthersAsTheyAre) {
   EXPECT_GT(untold.changed, 5);
 }
 
+/// Lines in the picture's colours (crayon): those of the ground whose middle a mover covers keep
+/// the ground's, or they would stick out of the mover in its colour.
+TEST_F(HatchMovers, LeaveTheColourOfLinesOfTheGroundBehindThem) {
+  const auto paleLines = [&](bool hasDisc) {
+    Hatching style(library_);
+    set(style, {{"movers", "true"}, {"directions", "1"}, {"colour", "1"}, {"paper_tone", "0"}});
+    restart();
+    for (int i = 0; i < 14; ++i) {
+      std::mt19937 random(static_cast<unsigned>(i));
+      std::normal_distribution<double> noise(0.0, 2.0 / 255.0);
+      const hal::Image image = imageOf(kSize, [&](int x, int y) {
+        const bool isDisc = i >= 8 && glm::distance(glm::dvec2(x, y), kDisc) < kRadius;
+        const double ground = hasDisc ? 0.3 + 0.1 * std::sin(0.6 * x) : 0.75;
+        return (isDisc ? 0.75 + 0.1 * std::sin(0.6 * y) : ground) + noise(random);
+      });
+      style.paint(next(image), {});
+    }
+    // Of the lines of the ground that lie behind the disc: how many are paler than the ground.
+    std::array<int, 2> counts{};
+    for (const DrawnLine& line : drawnLines(style.set(0))) {
+      if (line.object == kOnMover) continue;
+      const glm::vec2 middle = line.points[line.points.size() / 2];
+      if (glm::distance(glm::dvec2(middle), kDisc) > kRadius - 6.0) continue;
+      counts.at(line.paint.r > 0.5F ? 1 : 0) += 1;
+    }
+    return counts;
+  };
+  const std::array<int, 2> counts = paleLines(true);
+  EXPECT_GT(counts[0], 5);
+  EXPECT_EQ(counts[1], 0);
+  EXPECT_GT(paleLines(false)[1], 0) << "the control: lines of a ground as pale as the disc";
+}
+
 /// The lines of each mover are clipped where the other one begins, and not by its own border's
 /// labels.
 TEST_F(HatchMovers, TwoOfThemAreBothDrawn) {

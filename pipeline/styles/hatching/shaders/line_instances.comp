@@ -2,12 +2,14 @@
 //          what the tone there asks for, less where the pen is set down and lifted.
 // Inputs:  anchors, lines, ranks (line_order.comp); tone.glsl's; segment: px; taper: the part of
 //          a line on each side in which it thins out; paint: colour and opacity; colours: the
-//          image (LINEAR), colour: how much of it the paint takes; rankColour: how much a line is
+//          image (LINEAR), colour: how much of it the paint takes; mover_labels.glsl's, background
+//          (marks::MotionLayers): the colour behind movers; rankColour: how much a line is
 //          coloured by its rank, for views.
 // Outputs: instances (long_instance.glsl). One invocation per anchor.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/marks/shaders/mover_labels.glsl"
 #include "pipeline/scene/render/shaders/surface_form.glsl"
 #include "pipeline/styles/hatching/shaders/line.glsl"
 #include "pipeline/styles/strokes/shaders/long_instance.glsl"
@@ -25,11 +27,23 @@ uniform vec4 paint;
 uniform float rankColour;
 uniform sampler2D colours;
 uniform float colour;
+uniform highp sampler2D background;
 uniform int points;  // 16; a uniform, so that compilers keep the loop over them
 
 vec2 wayOf(uint slot, int arm, int i) {
   int at = arm * kArm + i;
   return unpackSnorm2x16(lines[slot].ways[at >> 2][at & 3]);
+}
+
+// Of what the line lies on: behind a mover that covers the middle of a background's line, the
+// colour that is remembered there; of a mover's, that at its anchor where the middle is beside it.
+vec3 colourOf(vec2 px, vec2 middle, uint support) {
+  float mover = moverAt(middle).r;
+  bool isBeside = support == kMoverLabel && mover < 0.5;
+  vec3 seen = textureLod(colours, (isBeside ? px : middle) / fullSize, 0.0).rgb;
+  if (support != 0u || mover <= 0.0) return seen;
+  vec4 behind = textureLod(background, inLayers(background, middle), 0.0);
+  return mix(seen, behind.rgb, smoothstep(0.0, 0.3, mover) * step(1.0, behind.a));
 }
 
 void main() {
@@ -63,7 +77,10 @@ void main() {
     widest = max(widest, wide);
   }
   vec3 byRank = mix(vec3(0.9, 0.15, 0.1), vec3(0.1, 0.3, 0.95), rank);
-  vec3 ink = mix(paint.rgb, textureLod(colours, from / fullSize, 0.0).rgb, colour);
+  vec3 ink = paint.rgb;
+  if (colour > 0.0) {
+    ink = mix(ink, colourOf(anchors[slot].px, from, lines[slot].label), colour);
+  }
   instances[place].paint.rgb = mix(ink, byRank, rankColour);
   instances[place].paint.a = paint.a;
   float variant = float(hashOf(anchors[slot].seed ^ 0x31u) & 3u);
