@@ -48,7 +48,7 @@ void StillRegion::add(const MoverFrame& frame) {
       if (frame.zones.far(at) != 0 || far_(at) != 0) return;
       const int change = largestDifference(frame.output(at), output_(at));
       const int own = largestDifference(frame.input(at), input_(at));
-      changed_ += {change > kStillLevels ? 1.0 : 0.0, 1.0};
+      changed_ += {change > kStillLevels && own <= kStillLevels ? 1.0 : 0.0, 1.0};
       inputChanged_ += {own > kStillLevels ? 1.0 : 0.0, 1.0};
     });
   }
@@ -58,9 +58,7 @@ void StillRegion::add(const MoverFrame& frame) {
 }
 
 std::optional<double> StillRegion::percent() const {
-  const std::optional<double> changed = percentOf(changed_);
-  if (!changed) return std::nullopt;
-  return std::max(0.0, *changed - inputPercent().value_or(0));
+  return percentOf(changed_);
 }
 
 std::optional<double> StillRegion::inputPercent() const {

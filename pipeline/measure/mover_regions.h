@@ -23,7 +23,8 @@ struct MoverFrame {
 };
 
 /// The share of pixels away from movers that change by more than 8 levels from one frame to the
-/// next, less the input's own. STILL, percent.
+/// next where the input does not: its share is not subtracted, or its noise, which a painting
+/// need not show, would hide as many pixels elsewhere. STILL, percent.
 class StillRegion {
  public:
   void add(const MoverFrame& frame);

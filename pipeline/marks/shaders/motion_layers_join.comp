@@ -201,6 +201,7 @@ void main() {
   float others = 0.0;
   float changes = 0.0;
   float carried = 0.0;
+  float beside = 0.0;  // the maturity of the mover around
   Structure structure = noStructure();
   for (int y = -reach; y <= reach; ++y) {
     for (int x = -1; x <= 1; ++x) {
@@ -208,7 +209,9 @@ void main() {
       vec4 there = texelFetch(candidates, at, 0);
       others += there.r / 9.0;
       carried = max(carried, there.g);
-      changes += max(texelFetch(evidence, at, 0).r, 0.0) / 9.0;
+      vec4 was = texelFetch(evidence, at, 0);
+      changes += max(was.r, 0.0) / 9.0;
+      if (there.g > 0.5) beside = max(beside, was.b);
       add(structure, there.ba);
     }
   }
@@ -251,7 +254,9 @@ void main() {
   mayContinue = mayContinue && isStanding && rest > kLeastRest && enclosing < 0.0;
   hasLeft = hasLeft || (mayContinue && continuesBackground(cell, size));
   if (hasLeft) maturity = kHasLeft;
-  float joinsAfter = hasLeft ? 0.0 : maturity > kMatureSeconds ? restSeconds : kTentative;
+  // What a mover covered last, when it hardly moved any more, stays as long as it does.
+  bool isLasting = max(maturity, isStanding ? beside : 0.0) > kMatureSeconds;
+  float joinsAfter = hasLeft ? 0.0 : isLasting ? restSeconds : kTentative;
   bool isBeforeModel = hasFront && !hasLeft && texelFetch(front, cell, 0).r > 0.0;
   if (isBeforeModel) joinsAfter = max(joinsAfter, frontRestSeconds);
   bool isOdd = !isMover && own.r > kLeastOther;

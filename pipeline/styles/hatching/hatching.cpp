@@ -255,6 +255,8 @@ void Hatching::State::findContours(const scene::ArFrame& frame, const HatchingPa
   gpu::Program& pass = frame.hasObjects ? contourLinesOfModels : contourLines;
   bindField(pass.use());
   pass.texture("edges", canvas->edges)
+      .texture("picture", *source)
+      .texture("background", layerTextures.backgroundOf(moversOf(p)))
       .set("threshold", static_cast<float>(p.contourThreshold))
       .set("sign_", p.inverted ? 1.0F : -1.0F);
   if (frame.hasObjects) {

@@ -13,6 +13,8 @@ constexpr std::size_t kThesisQuads = 36;
 constexpr std::size_t kMaxBytes = std::size_t{1} << 27U;
 /// Px of the full picture that a quad may lie off its stroke: less than is seen.
 constexpr float kBendPx = 0.3F;
+/// The same of lines a pixel wide, whose width, and with it where they bend, changes with noise.
+constexpr float kLongBendPx = 0.075F;
 
 std::size_t verticesOf(std::size_t quads) {
   return 2 * quads + 4;
@@ -61,7 +63,7 @@ void StrokeStripMaker::lay(const gpu::Buffer& instances, const gpu::Buffer& draw
         .storage("Instances", instances)
         .storage("Drawn", drawn)
         .storage("Plans", strips.plans)
-        .set("bend", kBendPx)
+        .set("bend", form_ == StrokeForm::kLong ? kLongBendPx : kBendPx)
         .dispatch(all, GL_SHADER_STORAGE_BARRIER_BIT);
   }
   offsets_.use()

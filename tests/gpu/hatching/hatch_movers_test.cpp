@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <set>
 #include <string>
@@ -79,6 +80,90 @@ TEST_F(HatchMovers, HaveLinesOfTheirOwnAndLeaveTheOthersAsTheyAre) {
   const Found untold = see("false");
   EXPECT_EQ(untold.onMover, 0);
   EXPECT_GT(untold.changed, 5);
+}
+
+/// A plain ground takes its directions from what passes it: its lines are neither turned nor moved.
+TEST_F(HatchMovers, DoNotMoveTheLinesBesideThem) {
+  const auto farthestMoved = [&](const char* movers, const char* shapeTime) {
+    Hatching style(library_);
+    set(style,
+        {{"movers", movers}, {"directions", "1"}, {"evenness", "0"}, {"shape_time", shapeTime}});
+    restart();
+    const auto look = [&](bool hasDisc) {
+      std::mt19937 random(static_cast<unsigned>(number_));
+      std::normal_distribution<double> noise(0.0, 2.0 / 255.0);
+      style.paint(next(imageOf(kSize,
+                               [&](int x, int y) {
+                                 const bool isDisc =
+                                     hasDisc && glm::distance(glm::dvec2(x, y), kDisc) < kRadius;
+                                 return (isDisc ? 0.75 : 0.3) + noise(random);
+                               })),
+                  {});
+    };
+    for (int i = 0; i < 8; ++i) look(false);
+    const std::vector<marks::Anchor> anchorsBefore = style.set(0).anchors().read();
+    const std::vector<StoredLine> before = storedLines(style.set(0));
+    for (int i = 0; i < 4; ++i) look(true);
+    const std::vector<marks::Anchor> anchors = style.set(0).anchors().read();
+    const std::vector<StoredLine> lines = storedLines(style.set(0));
+    int compared = 0;
+    float farthest = 0.0F;
+    for (std::size_t slot = 0; slot < lines.size(); ++slot) {
+      const double away = glm::distance(glm::dvec2(anchors[slot].px), kDisc) - kRadius;
+      const bool isSame = anchorsBefore[slot].isStaying() && anchors[slot].isStaying() &&
+                          anchors[slot].seed == anchorsBefore[slot].seed;
+      if (!isSame || away < 3.0 || away > 30.0) continue;
+      ++compared;
+      farthest = std::max(farthest, glm::distance(lines[slot].shift, before[slot].shift));
+    }
+    EXPECT_GT(compared, 20);
+    return farthest;
+  };
+  EXPECT_LT(farthestMoved("true", "2"), 0.15F);
+  EXPECT_GT(farthestMoved("false", "0"), 0.5F) << "the control: lines without memory turn";
+}
+
+/// Of equal luma, it has no edge of tone: its outline is that of its labels.
+TEST_F(HatchMovers, AreOutlinedWhereTheirColourDiffers) {
+  const auto inkOnRing = [&](bool hasDisc) {
+    Hatching style(library_);
+    restart();
+    std::vector<std::uint8_t> bytes;
+    for (int i = 0; i < 14; ++i) {
+      hal::Image image = flat(0.5);
+      std::mt19937 random(static_cast<unsigned>(i));
+      const double x = 60.0 + 3.0 * i;
+      for (int row = 0; row < kSize.height; ++row) {
+        std::uint8_t* p = image.row(0, row).data();
+        for (int column = 0; column < kSize.width; ++column, p += 4) {
+          const auto noise = static_cast<std::uint8_t>(random() % 3U);
+          p[0] = p[1] = p[2] = static_cast<std::uint8_t>(128 + noise);
+          const bool isDisc =
+              hasDisc && i >= 8 && glm::distance(glm::dvec2(column, row), {x, kDisc.y}) < kRadius;
+          if (!isDisc) continue;
+          p[0] = static_cast<std::uint8_t>(215 + noise);  // 0.2126 R + 0.7152 G: of equal luma
+          p[1] = static_cast<std::uint8_t>(102 + noise);
+        }
+      }
+      bytes = paint(style, next(image), "contours");
+    }
+    int outlined = 0;
+    constexpr int kDirections = 64;
+    for (int i = 0; i < kDirections; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / kDirections;
+      int most = 0;
+      for (double radius = kRadius - 4.0; radius <= kRadius + 4.0; radius += 0.5) {
+        const int column = static_cast<int>(60.0 + 3.0 * 13 + radius * std::cos(angle));
+        const int row = static_cast<int>(kDisc.y + radius * std::sin(angle));
+        const auto at = static_cast<std::size_t>(row * kSize.width + column) * 4;
+        most = std::max(most, 255 - bytes[at]);
+      }
+      outlined += most > 60 ? 1 : 0;
+    }
+    return outlined;
+  };
+  EXPECT_GE(inkOnRing(true), 56);
+  EXPECT_EQ(inkOnRing(false), 0) << "the control";
 }
 
 /// Lines in the picture's colours (crayon): those of the ground whose middle a mover covers keep

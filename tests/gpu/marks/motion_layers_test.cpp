@@ -152,6 +152,51 @@ TEST_F(MotionLayersTest, AMoverThatRestsJoinsTheBackgroundAfterFifteenSeconds) {
   EXPECT_EQ(movers(), 0);
 }
 
+/// It creeps before it rests: no motion is measured of what it covers last, which is as good as new
+/// there. It must not be remembered as the wall.
+TEST_F(MotionLayersTest, WhatAMoverCoversLastIsNotTakenForTheBackground) {
+  for (int i = 0; i < 8; ++i) see({});
+  const std::vector<glm::vec4> wall = texelsOf(layers_->background());
+  // Its rim is of four colours, or it would be taken for what is beside it.
+  const auto withRim = [&](const View& view, unsigned seed) {
+    hal::Image image = seen(view, kSize, seed);
+    for (int y = 0; y < kSize.height; ++y) {
+      std::uint8_t* p = image.row(0, y).data();
+      for (int x = 0; x < kSize.width; ++x, p += 4) {
+        const glm::dvec2 at = glm::dvec2(x, y) - view.disc;
+        if (glm::length(at) > view.radius || glm::length(at) < view.radius - 5.0) continue;
+        const auto patch = glm::ivec2(glm::floor(at / 4.0)) & 1;
+        p[0] = patch.x != 0 ? 250 : 10;
+        p[1] = patch.y != 0 ? 200 : 20;
+        p[2] = patch.x != patch.y ? 220 : 30;
+      }
+    }
+    return image;
+  };
+  View view{.radius = 35.0};
+  unsigned seed = 100;
+  for (int i = 0; i < 12; ++i) {
+    view.disc = {60.0 + 8.0 * i, 120.0};
+    seeDiscMoved(withRim(view, ++seed), view, {8.0, 0.0}, Texture::kWhole);
+  }
+  for (int i = 0; i < 10; ++i) {
+    view.disc.x += 0.5;
+    seeImage(withRim(view, ++seed));
+  }
+  for (int i = 0; i < 60; ++i) seeImage(withRim(view, ++seed));
+  EXPECT_GT(overlapWith(view).iou(), 0.8);
+  const std::vector<glm::vec4> remembered = texelsOf(layers_->background());
+  const int width = layers_->background().size().width;
+  int wrong = 0;
+  for (std::size_t i = 0; i < wall.size(); ++i) {
+    const auto index = static_cast<int>(i);
+    const glm::dvec2 px = 2.0 * (glm::dvec2(index % width, index / width) + 0.5);
+    if (glm::distance(px, view.disc) > view.radius - 2.0) continue;
+    wrong += glm::distance(glm::vec3(wall[i]), glm::vec3(remembered[i])) > 0.08F ? 1 : 0;
+  }
+  EXPECT_LE(wrong, 30) << "160 if they join after 0.7 s";
+}
+
 /// Like a sleeve: flow is measured at its outline, but for the front.
 TEST_F(MotionLayersTest, APlainMoverGoesWithItsOutline) {
   see({});

@@ -278,6 +278,26 @@ TEST(MoverMeasures, AChangeAwayFromMoversIsNotStill) {
   EXPECT_NEAR(report.painting.stillPercent.value(), 0.6, 0.2);
 }
 
+/// A painting need not show the camera's noise: what changes elsewhere is not made good by it.
+TEST(MoverMeasures, NoiseOfTheInputHidesNoChange) {
+  const auto stillOf = [](int flicker) {
+    MoverMeasures measures;
+    std::mt19937 random(7);
+    for (int i = 0; i < kFrames; ++i) {
+      cv::Mat3b noisy = seen(i);
+      for (cv::Vec3b& each : noisy) {
+        if (random() % 50U == 0U) each += cv::Vec3b(0, 12, 0);
+      }
+      cv::Mat3b painted = seen(i);
+      painted(cv::Rect(60, 135, 20, 5)) += cv::Scalar::all(i % 2 == 0 ? flicker : 0);
+      measures.add({.time = timeOf(i), .input = imageOf(noisy), .output = imageOf(painted)});
+    }
+    return measures.total().value().painting.stillPercent.value();
+  };
+  EXPECT_NEAR(stillOf(30), 0.6, 0.2);
+  EXPECT_LT(stillOf(0), 0.01);
+}
+
 TEST(MoverMeasures, ControlsThatMustFailDo) {
   const MoverReport report = reportOf(seen);
   for (const Verdict& verdict : moverControlVerdicts(report, {})) {

@@ -1,13 +1,15 @@
 // Purpose: contour lines: edges of the image, smoothed along their direction, and the silhouettes,
-//          creases and part borders of models; and the outlines of movers.
+//          creases and part borders of models; and the outlines of movers, where something else is
+//          seen than the background that is remembered there: labels reach beyond legs.
 // Defines: MODELS: the latter.
 // Inputs:  edges (contour_edges.frag, LINEAR); contour_field.glsl's and mover_labels.glsl's; step_:
 //          px between taps; threshold: the least difference that is a line, in luma; sign: -1 for
-//          lines on the dark side of edges, 1 for the light one; MODELS: ids,
-//          normalFocus (ArFrame).
+//          lines on the dark side of edges, 1 for the light one; picture: the image (LINEAR);
+//          background (marks::MotionLayers); MODELS: ids, normalFocus (ArFrame).
 // Outputs: RG8: R ink, in [0, 1]; G the other side of edges, which stays bare where all around is
 //          dark (light, in inverted looks).
 // Precision: highp.
+#include "pipeline/marks/shaders/colour_difference.glsl"
 #include "pipeline/marks/shaders/mover_labels.glsl"
 #include "pipeline/styles/hatching/shaders/contour_field.glsl"
 #ifdef MODELS
@@ -19,15 +21,46 @@ uniform sampler2D edges;
 uniform float step_;
 uniform float threshold;
 uniform float sign_;
+uniform sampler2D picture;
+uniform highp sampler2D background;
 layout(location = 0) out vec2 contour;
 
 const float kStride = 1.8;  // steps between taps: specks of a texture are shorter than a line
 const float kSmooth[4] = float[4](0.24, 0.2, 0.12, 0.06);
 
-// Labels are blurred over two or three pixels.
+// How unlike the background what is seen within 3 px of the border of a label is, on its inner side;
+// 1 where the background was never seen.
+float unlikeBehind(vec2 px) {
+  const float kBeside = 3.0;  // px, to find the inner side
+  const int kTaps = 3;
+  const float kTapPx = 1.5;
+  vec2 inwards = vec2(moverAt(px + vec2(kBeside, 0.0)).r - moverAt(px - vec2(kBeside, 0.0)).r,
+                      moverAt(px + vec2(0.0, kBeside)).r - moverAt(px - vec2(0.0, kBeside)).r);
+  inwards *= inversesqrt(max(dot(inwards, inwards), 1e-6));
+  float most = 0.0;
+  for (int i = 0; i < kTaps; ++i) {
+    vec2 at = px + kTapPx * float(i) * inwards;
+    vec4 behind = textureLod(background, inLayers(background, at), 0.0);
+    if (behind.a < 1.0) return 1.0;
+    vec3 seen = textureLod(picture, at * pixelsOfFull / size, 0.0).rgb;
+    most = max(most, apart(seen, behind.rgb));
+  }
+  return most;
+}
+
+// The outline of labels that are averaged over some pixels, so that it has no steps of their cells,
+// and none around specks.
 float moverLine(vec2 px) {
-  float mover = moverAt(px).r;
-  return smoothstep(0.1, 0.7, 1.0 - abs(2.0 * mover - 1.0));
+  const float kSpread = 2.5;  // px between the nine that are averaged
+  const float kRamp = 3.5;    // px: half of what the average takes from 0 to 1
+  float mover = 0.0;
+  for (int i = 0; i < 9; ++i) {
+    mover += moverAt(px + kSpread * vec2(i % 3 - 1, i / 3 - 1)).r / 9.0;
+  }
+  float off = kRamp * abs(2.0 * mover - 1.0) * pixelsOfFull.x;
+  float line = clamp(0.5 * step_ + 0.5 - off, 0.0, 1.0);
+  if (line > 0.0) line *= smoothstep(0.05, 0.1, unlikeBehind(px));
+  return line;
 }
 
 float edgeAt(vec2 pixel) { return textureLod(edges, pixel / size, 0.0).r; }
