@@ -20,9 +20,9 @@ constexpr double kAlignSeconds = 6.0;
 /// them must not turn them.
 constexpr double kStandingHold = 100.0;
 /// What moves by itself changes its shape: lines on it are held no longer.
-constexpr double kMoverShapeSeconds = 0.25;
-constexpr double kMoverAlignSeconds = 0.3;
-constexpr hal::Duration kMoverFade = std::chrono::milliseconds(170);
+constexpr double kMoverShapeSeconds = 0.15;
+constexpr double kMoverAlignSeconds = 1.0;
+constexpr hal::Duration kMoverFade = std::chrono::milliseconds(450);
 /// Of a first frame, from random places.
 constexpr int kFirstSteps = 24;
 constexpr float kFirstPast = 0.3F;

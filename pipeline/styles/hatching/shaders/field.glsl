@@ -15,7 +15,7 @@ uniform vec2 slope;
 uniform float lead;
 uniform vec2 turn;
 
-const float kMoverLead = 0.3;  // part of lead
+const float kMoverLead = 0.1;  // part of lead
 
 vec2 unitTensor(vec2 tensor) { return tensor * inversesqrt(max(dot(tensor, tensor), 1e-12)); }
 
