@@ -126,7 +126,7 @@ std::vector<Verdict> moverVerdicts(const MoverReport& movers, MoverMarks marks) 
                                 verdictOf(kReturnLimit, painting.returnLevels),
                                 verdictOf(kGhostLimit, painting.ghost)};
   // Most sequences begin without a mover.
-  if (painting.remainsPercent) {
+  if (painting.remainsPercent && !marks.areOnPaper) {
     verdicts.push_back(verdictOf(kRemainsLimit, painting.remainsPercent));
   }
   for (Verdict& verdict : verdictsAlong(movers.alongMotion[Subject::kPainting],

@@ -11,7 +11,7 @@ namespace pleinair::measure {
 
 /// The kind of a style's marks, as far as it decides how they are judged on movers.
 struct MoverMarks {
-  bool areOnPaper = false;  ///< on bare paper, LOST says nothing
+  bool areOnPaper = false;  ///< bare paper is like no picture: LOST and REMAINS say nothing
   /// Thin lines change by more than POP's 24 levels when they move by a part of a pixel: POP is
   /// that of smoothed pictures.
   bool areLines = false;

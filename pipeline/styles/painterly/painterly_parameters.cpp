@@ -165,7 +165,7 @@ canvas = 0.05
 )"},
     {"gouache", "flat, matt and opaque", R"(
 layers = 3
-stroke_size = 3.7
+stroke_size = 3.4
 detail = 0.2
 layer_ratio = 2.2
 length = 6

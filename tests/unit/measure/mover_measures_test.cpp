@@ -255,6 +255,19 @@ TEST(MoverMeasures, WhatIsLeftOfAMoverOfTheFirstFrameRemains) {
   EXPECT_FALSE(reportOf(seen).painting.remainsPercent) << "no mover is there at first";
 }
 
+/// Lines on bare paper are nearer to what they were than to any camera's picture.
+TEST(MoverMeasures, RemainsAreNotJudgedOnPaper) {
+  MoverReport report;
+  report.painting.remainsPercent = 50.0;
+  const auto failed = [&](MoverMarks marks) {
+    return std::ranges::count_if(moverVerdicts(report, marks), [](const Verdict& verdict) {
+      return verdict.state == Verdict::State::kFailed;
+    });
+  };
+  EXPECT_EQ(failed({}), 1);
+  EXPECT_EQ(failed({.areOnPaper = true}), 0);
+}
+
 TEST(MoverMeasures, APlaceThatIsPaintedAnewHasNotReturned) {
   const MoverReport report = reportOf([](int frame) {
     cv::Mat3b painted = seen(frame);
