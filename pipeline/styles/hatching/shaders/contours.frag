@@ -53,10 +53,17 @@ float unlikeBehind(vec2 px) {
 float moverLine(vec2 px) {
   const float kSpread = 2.5;  // px between the nine that are averaged
   const float kRamp = 3.5;    // px: half of what the average takes from 0 to 1
-  float mover = 0.0;
-  for (int i = 0; i < 9; ++i) {
-    mover += moverAt(px + kSpread * vec2(i % 3 - 1, i / 3 - 1)).r / 9.0;
+  float corners = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    corners += moverAt(px + kSpread * (2.0 * vec2(i & 1, i >> 1) - 1.0)).r;
   }
+  if (corners <= 0.0 || corners >= 4.0) return 0.0;
+  float mover = corners + moverAt(px).r;
+  for (int i = 0; i < 4; ++i) {
+    float side = float(2 * (i & 1) - 1);
+    mover += moverAt(px + kSpread * (i < 2 ? vec2(side, 0.0) : vec2(0.0, side))).r;
+  }
+  mover /= 9.0;
   float off = kRamp * abs(2.0 * mover - 1.0) * pixelsOfFull.x;
   float line = clamp(0.5 * step_ + 0.5 - off, 0.0, 1.0);
   if (line > 0.0) line *= smoothstep(0.05, 0.1, unlikeBehind(px));
