@@ -13,8 +13,8 @@
 namespace pleinair::marks {
 
 struct MotionLayersOptions {
-  /// after which a mover that has stopped counts as background; at most 16 s, since it is counted
-  /// in half floats: frames of high rates would add nothing
+  /// after which a mover that has stopped counts as background, and so does what it covered last;
+  /// at most 16 s, since it is counted in half floats: frames of high rates would add nothing
   hal::Duration rest = std::chrono::seconds(15);
   /// the same for one that is before a virtual model (FrontMovers)
   hal::Duration restBeforeModels = std::chrono::seconds(30);
@@ -27,7 +27,8 @@ struct MotionLayersOptions {
 /// at its last place. Changes of light that leave edges where they are make no mover, nor does a
 /// change of more than half of the image, or of less if most edges in it stay. What a mover
 /// uncovers for the first time is background as soon as it rests, if the camera stands and it is
-/// like its surroundings, else like any other mover. (Background subtraction with a running mean:
+/// like its surroundings, else like any other mover. What has changed once and then rests, without
+/// a mover beside it, is background after 0.7 s. (Background subtraction with a running mean:
 /// Piccardi, "Background subtraction techniques: a review", 2004.)
 ///
 /// A mover's plain parts, and those along an edge, go with the others; so do parts all around which

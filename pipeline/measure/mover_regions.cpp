@@ -1,6 +1,5 @@
 #include "pipeline/measure/mover_regions.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cstddef>
 
@@ -48,7 +47,7 @@ void StillRegion::add(const MoverFrame& frame) {
       if (frame.zones.far(at) != 0 || far_(at) != 0) return;
       const int change = largestDifference(frame.output(at), output_(at));
       const int own = largestDifference(frame.input(at), input_(at));
-      changed_ += {change > kStillLevels && own <= kStillLevels ? 1.0 : 0.0, 1.0};
+      if (own <= kStillLevels) changed_ += {change > kStillLevels ? 1.0 : 0.0, 1.0};
       inputChanged_ += {own > kStillLevels ? 1.0 : 0.0, 1.0};
     });
   }

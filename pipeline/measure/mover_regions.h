@@ -22,14 +22,13 @@ struct MoverFrame {
   const MoverZones& zones;
 };
 
-/// The share of pixels away from movers that change by more than 8 levels from one frame to the
-/// next where the input does not: its share is not subtracted, or its noise, which a painting
-/// need not show, would hide as many pixels elsewhere. STILL, percent.
+/// Of the pixels away from movers whose input does not change by more than 8 levels from one frame
+/// to the next, the share whose painting does. STILL, percent.
 class StillRegion {
  public:
   void add(const MoverFrame& frame);
   std::optional<double> percent() const;
-  /// The input's own.
+  /// Of all pixels away from movers, the share whose input changes.
   std::optional<double> inputPercent() const;
 
  private:

@@ -91,6 +91,18 @@ float maturityAround(ivec2 cell, ivec2 size, vec3 now, vec3 known) {
   return same < kLeastSame ? 0.0 : most;
 }
 
+// Whether a mover is within two cells that has been seen to move.
+bool isBesideMature(ivec2 cell, ivec2 size) {
+  float most = 0.0;
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      ivec2 at = clamp(cell + 2 * ivec2(x, y), ivec2(0), size - 1);
+      if (texelFetch(candidates, at, 0).g > 0.5) most = max(most, texelFetch(evidence, at, 0).b);
+    }
+  }
+  return most > kMatureSeconds;
+}
+
 // Whether other content around the cell is like its surroundings, and what was remembered there is
 // not: then that was the mover, and has left.
 bool isUncovered(ivec2 cell, ivec2 size) {
@@ -201,7 +213,6 @@ void main() {
   float others = 0.0;
   float changes = 0.0;
   float carried = 0.0;
-  float beside = 0.0;  // the maturity of the mover around
   Structure structure = noStructure();
   for (int y = -reach; y <= reach; ++y) {
     for (int x = -1; x <= 1; ++x) {
@@ -209,9 +220,7 @@ void main() {
       vec4 there = texelFetch(candidates, at, 0);
       others += there.r / 9.0;
       carried = max(carried, there.g);
-      vec4 was = texelFetch(evidence, at, 0);
-      changes += max(was.r, 0.0) / 9.0;
-      if (there.g > 0.5) beside = max(beside, was.b);
+      changes += max(texelFetch(evidence, at, 0).r, 0.0) / 9.0;
       add(structure, there.ba);
     }
   }
@@ -254,8 +263,10 @@ void main() {
   mayContinue = mayContinue && isStanding && rest > kLeastRest && enclosing < 0.0;
   hasLeft = hasLeft || (mayContinue && continuesBackground(cell, size));
   if (hasLeft) maturity = kHasLeft;
-  // What a mover covered last, when it hardly moved any more, stays as long as it does.
-  bool isLasting = max(maturity, isStanding ? beside : 0.0) > kMatureSeconds;
+  // A cell beside a mature mover joins no earlier than that mover, which crept over it when no motion
+  // was measured.
+  bool isLasting = maturity > kMatureSeconds;
+  if (isMover && isStanding && !hasLeft && !isLasting) isLasting = isBesideMature(cell, size);
   float joinsAfter = hasLeft ? 0.0 : isLasting ? restSeconds : kTentative;
   bool isBeforeModel = hasFront && !hasLeft && texelFetch(front, cell, 0).r > 0.0;
   if (isBeforeModel) joinsAfter = max(joinsAfter, frontRestSeconds);

@@ -19,9 +19,11 @@ constexpr double kAlignSeconds = 6.0;
 /// Before a camera that stands, lines of the background are held so much longer: what passes beside
 /// them must not turn them.
 constexpr double kStandingHold = 100.0;
-/// What moves by itself changes its shape: lines on it are held no longer.
+/// Time constants on movers: of a line's shape, since theirs changes with every step, and of its
+/// place among its neighbours, which has to look even only.
 constexpr double kMoverShapeSeconds = 0.15;
 constexpr double kMoverAlignSeconds = 1.0;
+/// The longest in which a line of a mover that is too many goes.
 constexpr hal::Duration kMoverFade = std::chrono::milliseconds(450);
 /// Of a first frame, from random places.
 constexpr int kFirstSteps = 24;

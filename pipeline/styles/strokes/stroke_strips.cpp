@@ -13,7 +13,8 @@ constexpr std::size_t kThesisQuads = 36;
 constexpr std::size_t kMaxBytes = std::size_t{1} << 27U;
 /// Px of the full picture that a quad may lie off its stroke: less than is seen.
 constexpr float kBendPx = 0.3F;
-/// The same of lines a pixel wide, whose width, and with it where they bend, changes with noise.
+/// The same for long strokes. Theirs may be a pixel wide, and the width has a part in where they
+/// bend: what noise of it changes must be less than is seen.
 constexpr float kLongBendPx = 0.075F;
 
 std::size_t verticesOf(std::size_t quads) {

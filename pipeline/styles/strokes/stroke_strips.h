@@ -11,7 +11,7 @@ namespace pleinair::styles {
 
 /// Into how many quads a stroke is broken.
 enum class StrokeQuads {
-  kCurvature,  ///< as few as its curvature needs
+  kCurvature,  ///< as few as its curvature needs; long strokes have nine at least
   kThesis,     ///< 4 (n + 2) for n + 1 control points (§4.4): 36, evenly; fewer where storage is
                ///< short of them
 };

@@ -76,7 +76,7 @@ TEST_F(LongStrips, InkIsWidthTimesLength) {
           inkOfLine(line([&](float part) { return glm::vec2(20.3F, 12.6F) + part * along; },
                          [&](float) { return 0.5F * width; }));
       EXPECT_NEAR(found / (width * glm::length(along)), 1.0, 0.06) << width << " " << along.x;
-      EXPECT_LE(quadsOf(vertices_), 8U);
+      EXPECT_LE(quadsOf(vertices_), 9U);
     }
   }
 }
@@ -87,8 +87,8 @@ TEST_F(LongStrips, WidthsSwellAlongTheLine) {
       inkOfLine(line([](float part) { return glm::vec2(20.0F + 150.0F * part, 60.0F); },
                      [](float part) { return 3.0F * (1.0F - std::abs(2.0F * part - 1.0F)); }));
   EXPECT_NEAR(found / (150.0 * 3.0), 1.0, 0.06);
-  EXPECT_GE(quadsOf(vertices_), 7U);
-  EXPECT_LE(quadsOf(vertices_), 8U);
+  EXPECT_GE(quadsOf(vertices_), 9U);
+  EXPECT_LE(quadsOf(vertices_), 9U);
 }
 
 /// If widths decided where a strip is divided, a little noise would change it at once.

@@ -1,10 +1,10 @@
 // Purpose: contour lines: edges of the image, smoothed along their direction, and the silhouettes,
-//          creases and part borders of models; and the outlines of movers, where something else is
-//          seen than the background that is remembered there: labels reach beyond legs.
-// Defines: MODELS: the latter.
+//          creases and part borders of models; and the outlines of movers, but not where the
+//          remembered background is seen inside: labels reach beyond what moves.
+// Defines: MODELS: with the lines of models.
 // Inputs:  edges (contour_edges.frag, LINEAR); contour_field.glsl's and mover_labels.glsl's; step_:
-//          px between taps; threshold: the least difference that is a line, in luma; sign: -1 for
-//          lines on the dark side of edges, 1 for the light one; picture: the image (LINEAR);
+//          px between taps; threshold: the least difference that is a line, in luma; sign_: -1 for
+//          lines on the dark side of edges, 1 for the light one; picture: the image that tones are taken from (LINEAR);
 //          background (marks::MotionLayers); MODELS: ids, normalFocus (ArFrame).
 // Outputs: RG8: R ink, in [0, 1]; G the other side of edges, which stays bare where all around is
 //          dark (light, in inverted looks).
@@ -28,8 +28,8 @@ layout(location = 0) out vec2 contour;
 const float kStride = 1.8;  // steps between taps: specks of a texture are shorter than a line
 const float kSmooth[4] = float[4](0.24, 0.2, 0.12, 0.06);
 
-// How unlike the background what is seen within 3 px of the border of a label is, on its inner side;
-// 1 where the background was never seen.
+// The largest difference of colour between the picture and the remembered background, from px to
+// 3 px inside the label; 1 where the background was never seen.
 float unlikeBehind(vec2 px) {
   const float kBeside = 3.0;  // px, to find the inner side
   const int kTaps = 3;
@@ -48,24 +48,24 @@ float unlikeBehind(vec2 px) {
   return most;
 }
 
-// The outline of labels that are averaged over some pixels, so that it has no steps of their cells,
-// and none around specks.
+// The outline of labels that are averaged over nine places, so that it has no steps of their cells,
+// and none around specks: what is narrower than kSpread may have none.
 float moverLine(vec2 px) {
-  const float kSpread = 2.5;  // px between the nine that are averaged
+  const float kSpread = 2.5;  // px between the places
   const float kRamp = 3.5;    // px: half of what the average takes from 0 to 1
-  float corners = 0.0;
+  const float kAll = 3.99;    // filters are coarse
+  float mover = 0.0;
   for (int i = 0; i < 4; ++i) {
-    corners += moverAt(px + kSpread * (2.0 * vec2(i & 1, i >> 1) - 1.0)).r;
+    mover += moverAt(px + kSpread * (2.0 * vec2(i & 1, i >> 1) - 1.0)).r;
   }
-  if (corners <= 0.0 || corners >= 4.0) return 0.0;
-  float mover = corners + moverAt(px).r;
+  if (mover <= 0.0 || mover >= kAll) return 0.0;
+  mover += moverAt(px).r;
   for (int i = 0; i < 4; ++i) {
-    float side = float(2 * (i & 1) - 1);
-    mover += moverAt(px + kSpread * (i < 2 ? vec2(side, 0.0) : vec2(0.0, side))).r;
+    float side = kSpread * float(2 * (i & 1) - 1);
+    mover += moverAt(px + (i < 2 ? vec2(side, 0.0) : vec2(0.0, side))).r;
   }
-  mover /= 9.0;
-  float off = kRamp * abs(2.0 * mover - 1.0) * pixelsOfFull.x;
-  float line = clamp(0.5 * step_ + 0.5 - off, 0.0, 1.0);
+  float off = abs(2.0 * mover / 9.0 - 1.0) * kRamp * pixelsOfFull.x;
+  float line = clamp(min(0.5 * step_ + 0.5, kRamp * pixelsOfFull.x) - off, 0.0, 1.0);
   if (line > 0.0) line *= smoothstep(0.05, 0.1, unlikeBehind(px));
   return line;
 }

@@ -48,8 +48,8 @@ void main() {
   was = isNew ? vec2(0.0) : jacobian.xy * was.x + jacobian.zw * was.y;
   vec2 across = acrossAt(px, support);
   float own = dot(was, across);
-  // What is not across the field: the field may have turned, which must not move the line.
-  vec2 rest = isNew || isFirst ? vec2(0.0) : pastOn(support) * (was - own * across);
+  // The part along the field is kept: when the field turns back, it is across it again.
+  vec2 alongField = isNew || isFirst ? vec2(0.0) : pastOn(support) * (was - own * across);
   if (anew) own = spacing * (unitOf(hashOf(anchors[slot].seed ^ 0x43u)) - 0.5);
   ivec2 low = binOf(px - reach);
   ivec2 high = binOf(px + reach);
@@ -85,5 +85,5 @@ void main() {
     own = isNew ? target : mix(target, own, pastOn(support));
   }
   own = clamp(own, -spacing, spacing);
-  imageStore(shifts, shiftTexel(int(slot)), vec4(own * across + rest, agreement, 0.0));
+  imageStore(shifts, shiftTexel(int(slot)), vec4(own * across + alongField, agreement, 0.0));
 }

@@ -35,12 +35,15 @@ vec2 wayOf(uint slot, int arm, int i) {
   return unpackSnorm2x16(lines[slot].ways[at >> 2][at & 3]);
 }
 
-// Of what the line lies on: behind a mover that covers the middle of a background's line, the
-// colour that is remembered there; of a mover's, that at its anchor where the middle is beside it.
+// The colour of what a line lies on: that of the remembered background where a mover covers the
+// middle of a line behind it, and that at the anchor where the middle of a mover's line is beside it.
 vec3 colourOf(vec2 px, vec2 middle, uint support) {
   float mover = moverAt(middle).r;
-  bool isBeside = support == kMoverLabel && mover < 0.5;
-  vec3 seen = textureLod(colours, (isBeside ? px : middle) / fullSize, 0.0).rgb;
+  vec3 seen = textureLod(colours, middle / fullSize, 0.0).rgb;
+  if (support == kMoverLabel) {
+    vec3 atAnchor = textureLod(colours, px / fullSize, 0.0).rgb;
+    return mix(atAnchor, seen, smoothstep(0.3, 0.7, mover));
+  }
   if (support != 0u || mover <= 0.0) return seen;
   vec4 behind = textureLod(background, inLayers(background, middle), 0.0);
   return mix(seen, behind.rgb, smoothstep(0.0, 0.3, mover) * step(1.0, behind.a));

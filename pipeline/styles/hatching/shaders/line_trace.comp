@@ -102,7 +102,7 @@ void traceArm(uint slot, int side, vec2 from, vec2 heading, float bend, float mo
 
 void trace(uint slot, vec2 px, uint seed, bool isNew, uint support) {
   float stray = wander * (2.0 * unitOf(hashOf(seed ^ 0x44u)) - 1.0);
-  vec2 heading = turned(directionAt(px, support), stray);
+  vec2 heading = directionAt(px, support);
   vec2 held = heading;
   if (!isNew) {
     // Keeps the previous orientation.
@@ -111,6 +111,7 @@ void trace(uint slot, vec2 px, uint seed, bool isNew, uint support) {
     if (dot(jacobian.xy * was.x + jacobian.zw * was.y, heading) < 0.0) heading = -heading;
     held = heldDirection(heading, was, jacobian, pastOn(support));
   }
+  heading = turned(heading, stray);
   vec2 shift = texelFetch(shifts, shiftTexel(int(slot)), 0).xy;
   shift += jitter * (2.0 * unitOf(hashOf(seed ^ 0x45u)) - 1.0) * vec2(-held.y, held.x);
   lines[slot].shift = shift;

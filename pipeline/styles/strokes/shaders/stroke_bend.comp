@@ -1,7 +1,7 @@
 // Purpose: chooses the knots of the spline at which a stroke's strip bends: as few quads as its
 //          curvature needs.
-// Defines: LONG: stroke_strip.glsl's; it also bends at every other knot, so that it
-//          swells as its widths do: if these chose the knots, their noise would be seen.
+// Defines: LONG: stroke_strip.glsl's; it also bends at every other knot, from both
+//          ends, so that it swells as its widths do: if each width chose, its noise would be seen.
 // Inputs:  instances, instanceCount of them in drawn; bend: px that a quad's chord may deviate.
 // Outputs: plans: breaks. One invocation per stroke.
 // Precision: highp.
@@ -19,7 +19,7 @@ void main() {
   float way = 0.0;
   float turn = 0.0;
 #ifdef LONG
-  const uint kEvenly = 0x5554u;
+  const uint kEvenly = 0xAB54u;
 #endif
   // the first span, a sixth of a full span long, is straight
   SplinePlace before = splineAt(rank, 1.0);
