@@ -295,9 +295,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
   s.beginToCompare(isAtRest ? s.compareAtRest : s.compare, frame, motion, step)
       .image("pictureNow", s.pictures.at(s.now), ImageAccess::kWrite)
       .dispatch(s.cells(), kStored);
-  s.bindBusy(s.markNear.use())
-      .texture("moverMotion", s.moverMotion)
-      .dispatch(s.blocks(), kStored);
+  s.bindBusy(s.markNear.use()).texture("moverMotion", s.moverMotion).dispatch(s.blocks(), kStored);
   s.bindBusy(s.listNear.use()).dispatch({1, 1}, kListed);
   s.beginToCompare(s.compareNear, frame, motion, step)
       .texture("moverMotion", s.moverMotion)
@@ -382,6 +380,11 @@ const gpu::Texture& MotionLayers::labels() const {
 
 const gpu::Texture& MotionLayers::shares() const {
   return state_->hasFront ? state_->front.seenShares() : state_->shares.at(state_->now);
+}
+
+void MotionLayers::dispatchOverMovers(gpu::Program& program, GLbitfield barriers) const {
+  state_->bindBusy(program).dispatchIndirect(state_->busy, kBusyCommand * sizeof(std::uint32_t),
+                                             barriers);
 }
 
 const gpu::Texture* MotionLayers::front() const {

@@ -18,9 +18,9 @@ const StyleKind& hatchingKind();
 /// contour lines. Each line belongs to an anchor (marks::AnchorSet), goes with the thing it lies
 /// on, runs along the tensor field, and is as wide at each place as its tone asks for; ranks are
 /// nested, so that a tone that changes adds lines or takes them away, and none pops (HatchLines).
-/// Contours are the image's edges, smoothed along the field, and the silhouettes, creases and
-/// borders between patches of models. Paper goes with ArFrame::canvasFromPicture. All on the GPU,
-/// nothing is read back.
+/// Contours are the image's edges, smoothed along the field, the silhouettes, creases and borders
+/// between patches of models, and the outlines of movers. Paper goes with
+/// ArFrame::canvasFromPicture. All on the GPU, nothing is read back.
 ///
 /// Time: tones and contours are taken from an image that is averaged along its motion
 /// (marks::FilteredFrame). A first frame (after reset(), a cut, another full size, another

@@ -11,7 +11,7 @@
 
 namespace pleinair::styles {
 
-/// Draws the borders at which strokes are clipped (shaders/borders.frag): those of objects, of
+/// Draws the borders at which strokes are clipped (shaders/borders.glsl): those of objects, of
 /// their patches, of movers and of segments of the camera image. All calls on the thread of the GL
 /// context it was made in.
 class StrokeBorders {
@@ -19,15 +19,24 @@ class StrokeBorders {
   /// `library` has gpu::strokesShaders(), marksShaders() and sceneShaders().
   explicit StrokeBorders(const gpu::ShaderLibrary& library);
 
-  /// Draws the borders of a frame; without `movers` and `segments` there are none of these.
-  /// `target` has one R32UI texture of the frame's size; `before`: the previous frame's, to hold
-  /// borders of segments to while the camera stands.
+  /// Draws the borders of a frame; without `movers` and `segments` there are none of these. Without
+  /// segments, only the places where objects and movers may be are worked on. `target` has one
+  /// R32UI texture of the frame's size; `before`: the previous frame's, to hold borders of segments
+  /// to while the camera stands.
   void draw(const scene::ArFrame& frame, const marks::MotionLayers* movers,
             const gpu::RenderTarget& target, const marks::SegmentMap* segments = nullptr,
             const gpu::Texture* before = nullptr);
 
  private:
-  gpu::Program program_;
+  /// Fills what borders.glsl reads, but for the previous frame's.
+  gpu::Program& begin(gpu::Program& program, const scene::ArFrame& frame,
+                      const marks::MotionLayers* movers, const marks::SegmentMap* segments) const;
+  void drawSparse(const scene::ArFrame& frame, const marks::MotionLayers* movers,
+                  const gpu::RenderTarget& target);
+
+  gpu::Program all_;
+  gpu::Program ofObjects_;  // of a part of the picture
+  gpu::Program ofMovers_;
   gpu::Texture noForms_;
   marks::LayerTextures layerTextures_;
 };

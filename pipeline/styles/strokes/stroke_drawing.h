@@ -24,7 +24,7 @@ struct StrokeLight {
 
 /// The places where strokes are clipped.
 struct StrokeClip {
-  /// The borders of what strokes lie on (shaders/borders.frag), of the target's size; null: none.
+  /// The borders of what strokes lie on (shaders/borders.glsl), of the target's size; null: none.
   const gpu::Texture* borders = nullptr;
   /// The picture, LINEAR: strokes of models and movers fade where its colour is not theirs
   /// (shaders/colour_clip.glsl); null: nowhere.

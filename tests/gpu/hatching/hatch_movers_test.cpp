@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/packing.hpp>
 #include <gmock/gmock.h>
 
 #include "tests/gpu/hatching/hatching_fixture.h"
@@ -80,6 +81,44 @@ TEST_F(HatchMovers, HaveLinesOfTheirOwnAndLeaveTheOthersAsTheyAre) {
   const Found untold = see("false");
   EXPECT_EQ(untold.onMover, 0);
   EXPECT_GT(untold.changed, 5);
+}
+
+/// Lines of crayon stray from the field, and some lie nearly across it where it has turned: none
+/// may swap its ends, nor move.
+TEST_F(HatchMovers, LinesOfAStillSceneKeepTheirShape) {
+  Hatching style(library_);
+  set(style, {{"directions", "2"}, {"lead", "1"}, {"evenness", "0.3"}, {"wander", "0.6"}});
+  restart();
+  const auto look = [&](double turn) {
+    std::mt19937 random(static_cast<unsigned>(number_));
+    std::normal_distribution<double> noise(0.0, 2.0 / 255.0);
+    style.paint(
+        next(imageOf(kSize,
+                     [&](int x, int y) {
+                       return 0.5 +
+                              0.2 * std::sin(0.3 * (x * std::cos(turn) + y * std::sin(turn))) +
+                              noise(random);
+                     })),
+        {});
+  };
+  look(0.0);
+  for (int i = 0; i < 8; ++i) look(1.35);
+  for (std::size_t set = 0; set < style.setCount(); ++set) {
+    const std::vector<StoredLine> before = storedLines(style.set(set));
+    look(1.35);
+    const std::vector<StoredLine> after = storedLines(style.set(set));
+    const std::vector<marks::Anchor> anchors = style.set(set).anchors().read();
+    int compared = 0;
+    for (std::size_t slot = 0; slot < after.size(); ++slot) {
+      if (!anchors[slot].isStaying()) continue;
+      ++compared;
+      const glm::vec2 was = glm::unpackSnorm2x16(before[slot].ways[0]);
+      const glm::vec2 is = glm::unpackSnorm2x16(after[slot].ways[0]);
+      EXPECT_GT(glm::dot(was, is), 0.99F) << slot;
+      EXPECT_LT(glm::distance(before[slot].shift, after[slot].shift), 0.1F) << slot;
+    }
+    EXPECT_GT(compared, 50);
+  }
 }
 
 /// A plain ground takes its directions from what passes it: its lines are neither turned nor moved.

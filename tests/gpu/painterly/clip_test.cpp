@@ -1,5 +1,6 @@
 // Paint that does not run over the boundary of what its stroke is of: where that is, against the
 // CPU, and what comes of it.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -13,6 +14,8 @@
 #include "pipeline/marks/layer_textures.h"
 #include "pipeline/marks/motion_layers.h"
 #include "pipeline/marks/segment_map.h"
+#include "pipeline/styles/strokes/stroke_borders.h"
+#include "tests/gpu/marks/wall_and_disc.h"
 #include "tests/gpu/painterly/painterly_fixture.h"
 #include "tests/gpu/painterly/spill.h"
 #include "tests/oracles/stroke_oracle.h"
@@ -283,6 +286,59 @@ TEST_F(MoverBordersTest, AreTheOracles) {
     }
     EXPECT_GT(ofMovers, 30);
     EXPECT_GT(clipped, 100);
+  }
+}
+
+/// A disc moves before a wall and past a model, at all places of blocks.
+TEST_F(ClipTest, BordersWhereSomethingMayBeAreThoseOfTheWholePicture) {
+  for (const double quality : {1.0, 0.7}) {
+    for (const bool hasObjects : {false, true}) {
+      SCOPED_TRACE(testing::Message() << quality << " " << hasObjects);
+      const hal::FrameSize size{static_cast<int>(quality * kSize.width),
+                                static_cast<int>(quality * kSize.height)};
+      const glm::ivec4 model(quality * glm::dvec4(120.0, 40.0, 150.0, 90.0));
+      setIds(size, [&](int x, int y) -> std::uint32_t {
+        return hasObjects && x >= model.x && y >= model.y && x < model.z && y < model.w ? 3 : 0;
+      });
+      marks::MotionField motion(library_, kSize);
+      marks::MotionLayers layers(library_, kSize);
+      StrokeBorders borders(library_);
+      restart();
+      std::size_t atBorders = 0;
+      for (int i = 0; i < 24; ++i) {
+        const marks::View disc{
+            .disc = quality * glm::dvec2(30.0 + 7.0 * i, 70.0 + 3.0 * std::sin(0.7 * i)),
+            .radius = i < 4 ? 0.0 : quality * 21.0};
+        scene::ArFrame frame = next(marks::seen(disc, size, static_cast<unsigned>(i + 1)));
+        frame.fullSize = kSize;
+        motion.update(frame);
+        layers.update(frame, motion);
+        ASSERT_TRUE(layers.isStanding() || i == 0);
+        frame.hasObjects = hasObjects;
+        frame.forms = &forms_;
+        if (hasObjects) frame.objectBounds = model;
+        const gpu::Texture sparse(gpu::TextureFormat::kR32ui, size);
+        borders.draw(frame, &layers, gpu::RenderTarget({&sparse}));
+        const gpu::Texture whole(gpu::TextureFormat::kR32ui, size);
+        bordersProgram()
+            .texture("picture", *frame.colour)
+            .texture("forms", forms_)
+            .texture("depth", *frame.colour)
+            .set("depthRange", glm::vec2(0.0F))
+            .texture("moverShares", layers.shares())
+            .texture("background", layers.background())
+            .set("hasObjects", hasObjects ? 1 : 0)
+            .set("objectBounds", glm::vec4(model))
+            .set("size", glm::vec2(size.width, size.height))
+            .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+            .drawFullscreen(gpu::RenderTarget({&whole}));
+        const std::vector<std::uint32_t> found = support::readR32ui(sparse);
+        ASSERT_EQ(found, support::readR32ui(whole)) << "frame " << i;
+        atBorders += static_cast<std::size_t>(
+            std::ranges::count_if(found, [](std::uint32_t each) { return each != 31U << 26U; }));
+      }
+      EXPECT_GT(atBorders, 2000U);
+    }
   }
 }
 

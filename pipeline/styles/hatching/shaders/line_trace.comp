@@ -102,16 +102,16 @@ void traceArm(uint slot, int side, vec2 from, vec2 heading, float bend, float mo
 
 void trace(uint slot, vec2 px, uint seed, bool isNew, uint support) {
   float stray = wander * (2.0 * unitOf(hashOf(seed ^ 0x44u)) - 1.0);
-  vec2 heading = directionAt(px, support);
-  vec2 held = heading;
+  vec2 straight = directionAt(px, support);
+  vec2 heading = turned(straight, stray);
+  vec2 held = straight;
   if (!isNew) {
-    // Keeps the previous orientation.
+    // Keeps the previous orientation: of the heading that the first segment is compared with.
     vec4 jacobian = anchors[slot].jacobian;
     vec2 was = wayOf(slot, 0, 0);
     if (dot(jacobian.xy * was.x + jacobian.zw * was.y, heading) < 0.0) heading = -heading;
     held = heldDirection(heading, was, jacobian, pastOn(support));
   }
-  heading = turned(heading, stray);
   vec2 shift = texelFetch(shifts, shiftTexel(int(slot)), 0).xy;
   shift += jitter * (2.0 * unitOf(hashOf(seed ^ 0x45u)) - 1.0) * vec2(-held.y, held.x);
   lines[slot].shift = shift;

@@ -2,7 +2,7 @@
 //          get a fuller one of their own colours: what their strokes leave bare differs with each
 //          step.
 // Inputs:  paint: the image, much reduced (LINEAR); moverPaint: movers, less reduced,
-//          premultiplied; mover_labels.glsl's; borders (borders.frag) if hasBorders;
+//          premultiplied; mover_labels.glsl's; borders (borders.glsl) if hasBorders;
 //          pixelsOfFull; ground: sRGB-coded; wash: its share;
 //          mixture.glsl's if isLimited.
 // Outputs: 0: sRGB-coded colour; 1: no height.

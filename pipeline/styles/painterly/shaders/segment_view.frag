@@ -1,6 +1,6 @@
 // Purpose: debug view of the labels that strokes are clipped at: each in a colour of its own, mixed
 //          at borders; the camera image, greyed, where there is none.
-// Inputs:  picture; borders (borders.frag) if hasBorders; size: of the frame.
+// Inputs:  picture; borders (borders.glsl) if hasBorders; size: of the frame.
 // Outputs: RGBA8, sRGB-coded, opaque. Precision: highp for places.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/stroke_border.glsl"

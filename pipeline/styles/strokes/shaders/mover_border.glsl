@@ -1,7 +1,7 @@
 // Purpose: mixes the paint of both sides of a mover's border, by the share of each pixel that the mover
 //          covers. Strokes of both were drawn up to it, all or nothing: where several lie over one another,
 //          the last one would count most, and the border would change with their order.
-// Inputs:  borders (borders.frag); colours: the paint.
+// Inputs:  borders (borders.glsl); colours: the paint.
 // Outputs: functions.
 // Precision: integers; that of colours.
 #include "pipeline/marks/shaders/stroke_border.glsl"

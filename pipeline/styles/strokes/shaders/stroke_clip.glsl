@@ -1,5 +1,5 @@
 // Purpose: keeps a stroke's paint inside the border of what it lies on (thesis §5.5).
-// Inputs:  borders (borders.frag); label: the stroke's.
+// Inputs:  borders (borders.glsl); label: the stroke's.
 // Outputs: the share of a fragment that the stroke may paint, in [0, 1]: smooth, and for paint of which
 //          mover_border.glsl mixes both sides afterwards: at a mover's border all or nothing; and
 //          whether it is such a border.
