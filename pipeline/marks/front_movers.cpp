@@ -29,7 +29,8 @@ constexpr GLbitfield kStored = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_AC
 
 struct FrontMovers::State {
   State(const gpu::ShaderLibrary& library, hal::FrameSize size)
-      : find(library.compute("pipeline/marks/shaders/front_movers.comp")),
+      : clear(library.compute("pipeline/marks/shaders/front_clear.comp")),
+        find(library.compute("pipeline/marks/shaders/front_movers.comp")),
         show(library.compute("pipeline/marks/shaders/front_labels.comp")),
         labels(TextureFormat::kRgba16f, size, TextureFilter::kLinear),
         shares(TextureFormat::kRgba8, size, TextureFilter::kLinear),
@@ -39,9 +40,10 @@ struct FrontMovers::State {
     }
   }
   void write(const scene::ArFrame& frame);
-  void spread(const scene::ArFrame& frame, const gpu::Texture& moverLabels, bool grants,
-              float passed);
+  void spread(const scene::ArFrame& frame, const gpu::Texture& moverLabels,
+              const BusyBlocks& blocks, bool grants, float passed);
 
+  gpu::Program clear;
   gpu::Program find;
   gpu::Program show;
   std::array<gpu::Texture, 2> fronts;
@@ -66,9 +68,12 @@ void FrontMovers::State::write(const scene::ArFrame& frame) {
 }
 
 void FrontMovers::State::spread(const scene::ArFrame& frame, const gpu::Texture& moverLabels,
-                                bool grants, float passed) {
+                                const BusyBlocks& blocks, bool grants, float passed) {
   const std::size_t before = now;
   now = 1 - now;
+  clear.use()
+      .image("front", fronts.at(now), ImageAccess::kWrite)
+      .dispatch({labels.size().width, labels.size().height}, kStored);
   find.use()
       .texture("labels", moverLabels)
       .texture("before", fronts.at(before))
@@ -78,8 +83,8 @@ void FrontMovers::State::spread(const scene::ArFrame& frame, const gpu::Texture&
       .set("hasPast", hasPast ? 1 : 0)
       .set("passed", passed)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
-      .image("front", fronts.at(now), ImageAccess::kWrite)
-      .dispatch({labels.size().width, labels.size().height}, kStored);
+      .image("front", fronts.at(now), ImageAccess::kWrite);
+  blocks.dispatch(find, kStored);
   hasPast = true;
 }
 
@@ -89,13 +94,14 @@ FrontMovers::FrontMovers(const gpu::ShaderLibrary& library, hal::FrameSize cells
 FrontMovers::~FrontMovers() = default;
 
 void FrontMovers::update(const scene::ArFrame& frame, const gpu::Texture& moverLabels,
-                         const gpu::Texture& moverShares, bool isStanding, float stepSeconds) {
+                         const gpu::Texture& moverShares, const BusyBlocks& blocks, bool isStanding,
+                         float stepSeconds) {
   State& s = *state_;
   assert(frame.hasObjects && moverLabels.size() == s.labels.size());
   s.write(frame);
-  s.spread(frame, moverLabels, isStanding, stepSeconds / kStaysSeconds);
+  s.spread(frame, moverLabels, blocks, isStanding, stepSeconds / kStaysSeconds);
   // Again, so that a fast mover is found as a whole within a few frames.
-  s.spread(frame, moverLabels, false, 0.0F);
+  s.spread(frame, moverLabels, blocks, false, 0.0F);
   s.show.use()
       .texture("labels", moverLabels)
       .texture("shares", moverShares)

@@ -5,6 +5,7 @@
 #include "hal/pixel_format.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
+#include "pipeline/marks/busy_blocks.h"
 #include "pipeline/scene/render/ar_frame.h"
 
 namespace pleinair::marks {
@@ -30,9 +31,9 @@ class FrontMovers {
   FrontMovers& operator=(FrontMovers&&) = delete;
 
   /// Adds a frame. `labels`, `shares`: MotionLayers' of all of the camera image, also behind
-  /// models.
+  /// models; `blocks`: where they may be other than 0.
   void update(const scene::ArFrame& frame, const gpu::Texture& labels, const gpu::Texture& shares,
-              bool isStanding, float stepSeconds);
+              const BusyBlocks& blocks, bool isStanding, float stepSeconds);
   /// Forgets the past.
   void reset();
 

@@ -193,6 +193,7 @@ struct MotionLayers::State {
   void dispatchBusy(gpu::Program& program, std::size_t command) const {
     program.dispatchIndirect(busy, command * sizeof(std::uint32_t), kStored);
   }
+  BusyBlocks busyBlocks() const { return {&busy, kBusyCommand * sizeof(std::uint32_t), blocks()}; }
   /// Which mover each cell of this frame's labels belongs to.
   void tellApart(const scene::ArFrame& frame, const MotionField& motion, float motionScale);
 };
@@ -359,8 +360,8 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .image("moverMotion", s.moverMotion, ImageAccess::kWrite);
   s.dispatchBusy(s.findMotion, kMotionCommand);
   if (frame.hasObjects) {
-    s.front.update(frame, s.labels.at(s.now), s.shares.at(s.now), s.hasPast && motion.isStanding(),
-                   step);
+    s.front.update(frame, s.labels.at(s.now), s.shares.at(s.now), s.busyBlocks(),
+                   s.hasPast && motion.isStanding(), step);
     s.hasFront = true;
   } else {
     s.forgetFront();
@@ -382,9 +383,8 @@ const gpu::Texture& MotionLayers::shares() const {
   return state_->hasFront ? state_->front.seenShares() : state_->shares.at(state_->now);
 }
 
-void MotionLayers::dispatchOverMovers(gpu::Program& program, GLbitfield barriers) const {
-  state_->bindBusy(program).dispatchIndirect(state_->busy, kBusyCommand * sizeof(std::uint32_t),
-                                             barriers);
+BusyBlocks MotionLayers::busyBlocks() const {
+  return state_->busyBlocks();
 }
 
 const gpu::Texture* MotionLayers::front() const {

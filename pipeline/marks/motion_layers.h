@@ -5,9 +5,9 @@
 
 #include "hal/clock.h"
 #include "hal/image.h"
-#include "pipeline/gpu/program.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
+#include "pipeline/marks/busy_blocks.h"
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/scene/render/ar_frame.h"
 
@@ -63,11 +63,7 @@ class MotionLayers {
   /// falling to 0 within 0.3 s. B: how long a mover has rested, A: how long it has been seen to
   /// move, s; below 0 where it has left.
   const gpu::Texture& labels() const;
-  /// Dispatches a compute program over the blocks in which labels() and shares() may be other than
-  /// 0, for passes that have nothing to do elsewhere: a group for each block of the second list of
-  /// shaders/busy_blocks.glsl, which the program includes. Preconditions: the program is in use,
-  /// and the last frame had no models.
-  void dispatchOverMovers(gpu::Program& program, GLbitfield barriers) const;
+  BusyBlocks busyBlocks() const;
   /// RGBA8, LINEAR, as large: R, G, B: 1 where the movers 1, 2, 3 are. Their sum is R of labels().
   const gpu::Texture& shares() const;
   static constexpr int kMostMovers = 3;

@@ -1,15 +1,16 @@
 // Purpose: which movers are before virtual models (marks::FrontMovers): those that cover a footprint,
 //          and what hangs together with them.
-// Inputs:  labels: MotionLayers', also behind models; before: the last output, if hasPast;
+// Inputs:  busy_blocks.glsl's; labels: MotionLayers', also behind models; before: the last output, if hasPast;
 //          passed: what it has lost since; ids (ArFrame), of pixelsOfFull; Footprints: corners of
 //          footprintCount convex quadrilaterals, px of the full image.
 // Outputs: front RGBA16F: how surely the mover there is before models: 1 over a footprint, falling;
-//          and whether models are to be hidden, which real things' models are not. One invocation
-//          per cell.
+//          and whether models are to be hidden, which real things' models are not. A group of
+//          invocations per block of the second list of busy_blocks.glsl; elsewhere is no mover.
 // Precision: highp.
+#include "pipeline/marks/shaders/busy_blocks.glsl"
 #include "pipeline/marks/shaders/layer_cells.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
-layout(local_size_x = 16, local_size_y = 4) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D front;
 const int kMaxFootprints = 16;
 layout(std140, binding = 0) uniform Footprints { vec4 corners[2 * kMaxFootprints]; };
@@ -59,7 +60,8 @@ float frontAround(ivec2 cell, ivec2 size) {
 }
 
 void main() {
-  ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 block = blockOf(busyWords[busyAt(int(gl_WorkGroupID.x))]);
+  ivec2 cell = block * kLayerBlock + ivec2(gl_LocalInvocationID.xy);
   ivec2 size = imageSize(front);
   if (any(greaterThanEqual(cell, size))) return;
   float stays = 0.0;

@@ -64,8 +64,8 @@ void StrokeBorders::drawSparse(const scene::ArFrame& frame, const marks::MotionL
   if (movers != nullptr) {
     bindMovers(ofMovers_.use(), frame, movers, layerTextures_);
     target.bindAsImages(kFormats);
-    movers->dispatchOverMovers(ofMovers_,
-                               GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
+    movers->busyBlocks().dispatch(ofMovers_,
+                                  GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
   }
   if (!frame.hasObjects) return;
   // Those beside objects, too, also where these end in the middle of a pixel.
