@@ -14,8 +14,8 @@ namespace pleinair::marks {
 /// layers, and holds until their next update.
 struct BusyBlocks {
   const gpu::Buffer* words = nullptr;  ///< of shaders/busy_blocks.glsl
-  std::size_t commandBytes = 0;        ///< where the command of a group a block is in them
-  glm::ivec2 grid{0};                  ///< blocks
+  std::size_t commandBytes = 0;  ///< offset of the command that dispatches a group for each block
+  glm::ivec2 grid{0};            ///< blocks
 
   /// Dispatches a group for each block. Precondition: the program, which includes
   /// shaders/busy_blocks.glsl, is in use.

@@ -16,8 +16,8 @@ namespace pleinair::measure {
 /// is missing where nothing of its kind was seen.
 struct MoverSummary {
   double coveredPercent = 0;  ///< of all pixels within the border
-  /// STILL: of the pixels away from movers whose input does not change by more than 8 levels from
-  /// one frame to the next, those whose painting does.
+  /// STILL: the share of pixels whose painting changes by more than 8 levels from one frame to the
+  /// next, among those away from movers whose input does not.
   std::optional<double> stillPercent;
   /// RETURN: how far the painting differs, 1 s after a mover has left, from that before it came;
   /// levels, where the input came back to within 4.

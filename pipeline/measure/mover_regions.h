@@ -22,13 +22,13 @@ struct MoverFrame {
   const MoverZones& zones;
 };
 
-/// Of the pixels away from movers whose input does not change by more than 8 levels from one frame
-/// to the next, the share whose painting does. STILL, percent.
+/// STILL, percent: the share of pixels whose painting changes by more than 8 levels from one frame
+/// to the next, among those away from movers whose input does not.
 class StillRegion {
  public:
   void add(const MoverFrame& frame);
   std::optional<double> percent() const;
-  /// Of all pixels away from movers, the share whose input changes.
+  /// The share of all pixels away from movers whose input changes.
   std::optional<double> inputPercent() const;
 
  private:

@@ -96,7 +96,7 @@ void PaintStage::followLoans() {
     if (!output.isOpen) continue;
     SurfaceLending& lending = output.stage->lending();
     const std::shared_ptr<const SurfaceLoan> loan = lending.toImport();
-    // Of a stream that the painter has not been opened for yet.
+    // The loan may belong to a stream that the painter has not been opened for yet.
     if (!loan || loan->surfaces.front().surface.format.size != output.format.frame.size) continue;
     const hal::Result<void> drawn = painter_->importLoan(output.id, *loan);
     if (!drawn && drawn.error().kind == hal::ErrorKind::kTimeout) continue;

@@ -73,7 +73,7 @@ class HatchLines {
     const marks::MotionField* motion = nullptr;
     const marks::TensorField* field = nullptr;
     const gpu::Texture* tone = nullptr;  ///< shaders/tone.frag's
-    /// null: nothing moves by itself; they know the colours behind movers, too
+    /// null: nothing moves by itself. The colours behind movers come from them, too.
     const marks::MotionLayers* movers = nullptr;
     const gpu::Texture* colours = nullptr;  ///< the image whose colours lines may take (LINEAR)
   };

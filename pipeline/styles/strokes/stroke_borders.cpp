@@ -68,7 +68,7 @@ void StrokeBorders::drawSparse(const scene::ArFrame& frame, const marks::MotionL
                                   GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
   }
   if (!frame.hasObjects) return;
-  // Those beside objects, too, also where these end in the middle of a pixel.
+  // A border also reaches the pixels beside an object.
   constexpr int kBeside = 2;
   const hal::FrameSize size = frame.size();
   const auto bounds = glm::ivec4(frame.objectBoundsOrAll());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <random>
 #include <set>
@@ -30,26 +31,39 @@ class HatchMovers : public HatchingTest {
     int around = 0;   // lines of the background behind it and beside it
     int changed = 0;  // of these, with another shape than before the mover came
   };
-  Found see(const char* movers) {
-    Hatching style(library_);
-    set(style, {{"movers", movers}, {"directions", "1"}});
+  /// A set's lines before the disc comes, and four frames after.
+  struct Seen {
+    std::vector<marks::Anchor> anchorsBefore, anchors;
+    std::vector<StoredLine> before, after;
+  };
+  /// `luma`: of the disc, or of the ground, at a pixel.
+  Seen seeDiscCome(Hatching& style, const std::function<double(bool, int, int)>& luma) {
     restart();
     const auto look = [&](bool hasDisc) {
       std::mt19937 random(static_cast<unsigned>(number_));
       std::normal_distribution<double> noise(0.0, 2.0 / 255.0);
       const hal::Image image = imageOf(kSize, [&](int x, int y) {
         const bool isDisc = hasDisc && glm::distance(glm::dvec2(x, y), kDisc) < kRadius;
-        return (isDisc ? 0.75 + 0.1 * std::sin(0.6 * y) : 0.3 + 0.1 * std::sin(0.6 * x)) +
-               noise(random);
+        return luma(isDisc, x, y) + noise(random);
       });
       style.paint(next(image), {});
     };
+    Seen seen;
     for (int i = 0; i < 8; ++i) look(false);
-    const std::vector<marks::Anchor> anchorsBefore = style.set(0).anchors().read();
-    const std::vector<StoredLine> before = storedLines(style.set(0));
+    seen.anchorsBefore = style.set(0).anchors().read();
+    seen.before = storedLines(style.set(0));
     for (int i = 0; i < 4; ++i) look(true);
-    const std::vector<marks::Anchor> anchors = style.set(0).anchors().read();
-    const std::vector<StoredLine> lines = storedLines(style.set(0));
+    seen.anchors = style.set(0).anchors().read();
+    seen.after = storedLines(style.set(0));
+    return seen;
+  }
+  Found see(const char* movers) {
+    Hatching style(library_);
+    set(style, {{"movers", movers}, {"directions", "1"}});
+    const auto [anchorsBefore, anchors, before, lines] =
+        seeDiscCome(style, [](bool isDisc, int x, int y) {
+          return isDisc ? 0.75 + 0.1 * std::sin(0.6 * y) : 0.3 + 0.1 * std::sin(0.6 * x);
+        });
     Found found;
     for (std::size_t slot = 0; slot < lines.size(); ++slot) {
       const double away = glm::distance(glm::dvec2(anchors[slot].px), kDisc) - kRadius;
@@ -127,24 +141,8 @@ TEST_F(HatchMovers, DoNotMoveTheLinesBesideThem) {
     Hatching style(library_);
     set(style,
         {{"movers", movers}, {"directions", "1"}, {"evenness", "0"}, {"shape_time", shapeTime}});
-    restart();
-    const auto look = [&](bool hasDisc) {
-      std::mt19937 random(static_cast<unsigned>(number_));
-      std::normal_distribution<double> noise(0.0, 2.0 / 255.0);
-      style.paint(next(imageOf(kSize,
-                               [&](int x, int y) {
-                                 const bool isDisc =
-                                     hasDisc && glm::distance(glm::dvec2(x, y), kDisc) < kRadius;
-                                 return (isDisc ? 0.75 : 0.3) + noise(random);
-                               })),
-                  {});
-    };
-    for (int i = 0; i < 8; ++i) look(false);
-    const std::vector<marks::Anchor> anchorsBefore = style.set(0).anchors().read();
-    const std::vector<StoredLine> before = storedLines(style.set(0));
-    for (int i = 0; i < 4; ++i) look(true);
-    const std::vector<marks::Anchor> anchors = style.set(0).anchors().read();
-    const std::vector<StoredLine> lines = storedLines(style.set(0));
+    const auto [anchorsBefore, anchors, before, lines] =
+        seeDiscCome(style, [](bool isDisc, int, int) { return isDisc ? 0.75 : 0.3; });
     int compared = 0;
     float farthest = 0.0F;
     for (std::size_t slot = 0; slot < lines.size(); ++slot) {
@@ -162,7 +160,7 @@ TEST_F(HatchMovers, DoNotMoveTheLinesBesideThem) {
   EXPECT_GT(farthestMoved("false", "0"), 0.5F) << "the control: lines without memory turn";
 }
 
-/// Of equal luma, it has no edge of tone: its outline is that of its labels.
+/// A disc of the ground's luma has no edge of tone: its outline is that of its labels.
 TEST_F(HatchMovers, AreOutlinedWhereTheirColourDiffers) {
   const auto inkOnRing = [&](bool hasDisc) {
     Hatching style(library_);
@@ -222,7 +220,7 @@ TEST_F(HatchMovers, LeaveTheColourOfLinesOfTheGroundBehindThem) {
       });
       style.paint(next(image), {});
     }
-    // Of the lines of the ground that lie behind the disc: how many are paler than the ground.
+    // Counts the lines of the ground that lie behind the disc: dark ones, and pale ones.
     std::array<int, 2> counts{};
     for (const DrawnLine& line : drawnLines(style.set(0))) {
       if (line.object == kOnMover) continue;

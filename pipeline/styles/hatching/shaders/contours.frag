@@ -4,8 +4,8 @@
 // Defines: MODELS: with the lines of models.
 // Inputs:  edges (contour_edges.frag, LINEAR); contour_field.glsl's and mover_labels.glsl's; step_:
 //          px between taps; threshold: the least difference that is a line, in luma; sign_: -1 for
-//          lines on the dark side of edges, 1 for the light one; picture: the image that tones are taken from (LINEAR);
-//          background (marks::MotionLayers); MODELS: ids, normalFocus (ArFrame).
+//          lines on the dark side of edges, 1 for the light one; picture: the image that tones are
+//          taken from (LINEAR); background (marks::MotionLayers); MODELS: ids, normalFocus (ArFrame).
 // Outputs: RG8: R ink, in [0, 1]; G the other side of edges, which stays bare where all around is
 //          dark (light, in inverted looks).
 // Precision: highp.

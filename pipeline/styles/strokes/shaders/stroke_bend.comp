@@ -1,7 +1,7 @@
 // Purpose: chooses the knots of the spline at which a stroke's strip bends: as few quads as its
 //          curvature needs.
-// Defines: LONG: stroke_strip.glsl's; it also bends at every other knot, from both
-//          ends, so that it swells as its widths do: if each width chose, its noise would be seen.
+// Defines: LONG: stroke_strip.glsl's; it also bends at every other knot, counted
+//          from both ends: it swells as its widths do. If widths chose knots, their noise would be seen.
 // Inputs:  instances, instanceCount of them in drawn; bend: px that a quad's chord may deviate.
 // Outputs: plans: breaks. One invocation per stroke.
 // Precision: highp.
