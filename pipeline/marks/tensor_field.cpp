@@ -115,14 +115,15 @@ struct TensorField::State {
     float share = 0.0F;
     float slack = 0.0F;
   };
-  void findEdges(const scene::ArFrame& frame, const gpu::Texture& picture, float share);
+  void findEdges(const scene::ArFrame& frame, const gpu::Texture& picture,
+                 const MotionLayers* layers, float share);
   void sumRegions(const scene::ArFrame& frame, const MotionField& motion,
                   const MotionLayers* layers, const Past& past);
   void sumModels(const scene::ArFrame& frame, double form, const Past& past);
 };
 
 void TensorField::State::findEdges(const scene::ArFrame& frame, const gpu::Texture& picture,
-                                   float share) {
+                                   const MotionLayers* layers, float share) {
   const Gradient& made = gradientOf(picture.size());
   gradient.use()
       .texture("picture", picture)
@@ -133,6 +134,8 @@ void TensorField::State::findEdges(const scene::ArFrame& frame, const gpu::Textu
       .texture("tensors", made.texture)
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .texture("movers", layerTextures.labelsOf(layers))
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .storage("Edges", edges)
       .dispatch((itemsOf(made.texture) + 1) / 2, GL_SHADER_STORAGE_BARRIER_BIT);
   threshold.use()
@@ -220,7 +223,7 @@ void TensorField::update(const scene::ArFrame& frame, const gpu::Texture& pictur
   const double past = goesOn ? keptAfter(step, memory) : 0.0;
   s.lastTime = frame.captureTime;
   s.hasPast = true;
-  s.findEdges(frame, picture, static_cast<float>(1.0 - past));
+  s.findEdges(frame, picture, layers, static_cast<float>(1.0 - past));
   const State::Past kept{goesOn, static_cast<float>(past), static_cast<float>(options.slack)};
   s.sumRegions(frame, motion, layers, kept);
   s.pyramid.build(s.background, options.fillSigma,

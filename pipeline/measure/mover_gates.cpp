@@ -15,6 +15,7 @@ namespace pleinair::measure {
 namespace {
 
 constexpr double kMaxStillPercent = 0.2;
+constexpr double kMaxFollow = 0.25;
 constexpr double kMaxReturnLevels = 4.0;
 constexpr double kMaxGhost = 0.25;
 constexpr double kMaxLostPercent = 15.0;
@@ -36,6 +37,7 @@ constexpr const char* kNoMover = "no mover was seen";
 constexpr const char* kNothingStill = "movers are everywhere";
 
 constexpr Limit kStillLimit{"STILL", " %", kMaxStillPercent, kNothingStill};
+constexpr Limit kFollowLimit{"FOLLOW", "", kMaxFollow, "no light changed at once"};
 constexpr Limit kReturnLimit{"RETURN", "", kMaxReturnLevels, kNothingUncovered};
 constexpr Limit kGhostLimit{"GHOST", "", kMaxGhost, kNothingUncovered};
 constexpr Limit kLostLimit{"LOST", " %", kMaxLostPercent, kNoClearMover};
@@ -48,6 +50,9 @@ constexpr Limit kLineSeamPopLimit{"smoothed SEAM POP", " %", kMaxLineSeamPopPerc
                                   kNothingFollowed};
 constexpr Limit kAveragingLost{"LOST of a painter that averages over 0.65 s", " %", kMaxLostPercent,
                                kNoClearMover, false};
+
+constexpr Limit kAveragingFollow{"FOLLOW of a painter that averages over 0.65 s", "", kMaxFollow,
+                                 "no light changed at once", false};
 
 static_assert(kDisplacementPixels == 20, "the names of these controls say it");
 constexpr Limit kDisplacedStill{
@@ -125,6 +130,8 @@ std::vector<Verdict> moverVerdicts(const MoverReport& movers, MoverMarks marks) 
   std::vector<Verdict> verdicts{verdictOf(kStillLimit, painting.stillPercent),
                                 verdictOf(kReturnLimit, painting.returnLevels),
                                 verdictOf(kGhostLimit, painting.ghost)};
+  // Few sequences have a lamp that is switched.
+  if (painting.follow) verdicts.push_back(verdictOf(kFollowLimit, painting.follow));
   // Most sequences begin without a mover.
   if (painting.remainsPercent && !marks.areOnPaper) {
     verdicts.push_back(verdictOf(kRemainsLimit, painting.remainsPercent));
@@ -138,10 +145,14 @@ std::vector<Verdict> moverVerdicts(const MoverReport& movers, MoverMarks marks) 
 }
 
 std::vector<Verdict> moverControlVerdicts(const MoverReport& movers, MoverMarks marks) {
-  return {verdictOf(kAveragingLost, movers.averaging.lostPercent),
-          redrawnVerdict(movers.alongMotion[Subject::kFresh], movers.alongMotion[Subject::kInput],
-                         marks.areLines),
-          verdictOf(kDisplacedStill, movers.displacedStillPercent)};
+  std::vector<Verdict> verdicts{verdictOf(kAveragingLost, movers.averaging.lostPercent),
+                                redrawnVerdict(movers.alongMotion[Subject::kFresh],
+                                               movers.alongMotion[Subject::kInput], marks.areLines),
+                                verdictOf(kDisplacedStill, movers.displacedStillPercent)};
+  if (movers.averaging.follow) {
+    verdicts.push_back(verdictOf(kAveragingFollow, movers.averaging.follow));
+  }
+  return verdicts;
 }
 
 std::vector<Verdict> labelVerdicts(const std::optional<LabelSummary>& labels,

@@ -40,12 +40,14 @@ class AveragingPainter {
 /// All regions of one painting of the sequence.
 class PaintingRegions {
  public:
-  explicit PaintingRegions(cv::Size size) : ground_(size), uncovered_(size) {}
+  explicit PaintingRegions(cv::Size size)
+      : still_(size), suddenChange_(size), ground_(size), uncovered_(size) {}
 
   void add(const MoverFrame& frame) {
     if (covered_.weight == 0) ground_.start(frame.output);
     covered_ += shareWithinBorder(frame.zones.mover);
     still_.add(frame);
+    suddenChange_.add(frame);
     lost_.add(frame, ground_);
     uncovered_.add(frame, ground_);
     firstPlace_.add(frame);
@@ -54,6 +56,7 @@ class PaintingRegions {
   MoverSummary summary() const {
     return {.coveredPercent = 100.0 * covered_.value().value_or(0),
             .stillPercent = still_.percent(),
+            .follow = suddenChange_.follow(),
             .returnLevels = uncovered_.returnLevels(),
             .ghost = uncovered_.ghost(),
             .lostPercent = lost_.percent(),
@@ -63,6 +66,7 @@ class PaintingRegions {
  private:
   Mean covered_;
   StillRegion still_;
+  SuddenChangeRegion suddenChange_;
   Ground ground_;
   LostRegion lost_;
   UncoveredRegion uncovered_;
@@ -109,8 +113,8 @@ std::optional<MoverReport> MoverMeasures::total() const {
   const std::vector<cv::Mat1b> movers = areTrue ? trueMovers_ : findMovers(inputs_);
   PaintingRegions painting(size);
   PaintingRegions averaging(size);
-  StillRegion still;  // of the input
-  StillRegion displacedStill;
+  StillRegion still(size);  // of the input
+  StillRegion displacedStill(size);
   AveragingPainter average;
   for (std::size_t t = 0; t < inputs_.size(); ++t) {
     const cv::Mat3b& input = inputs_[t];

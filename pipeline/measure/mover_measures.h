@@ -17,8 +17,11 @@ namespace pleinair::measure {
 struct MoverSummary {
   double coveredPercent = 0;  ///< of all pixels within the border
   /// STILL: the share of pixels whose painting changes by more than 8 levels from one frame to the
-  /// next, among those away from movers whose input does not.
+  /// next, among those away from movers whose input does not, and has not by itself for a second.
   std::optional<double> stillPercent;
+  /// FOLLOW: how far the painting is, 0.3 s after the input has changed at once away from movers,
+  /// from what it comes to, over how far it was before.
+  std::optional<double> follow;
   /// RETURN: how far the painting differs, 1 s after a mover has left, from that before it came;
   /// levels, where the input came back to within 4.
   std::optional<double> returnLevels;

@@ -18,6 +18,9 @@ constexpr int kReturnedLevels = 4;
 constexpr double kSmooth = 2.0;  // sigma, px
 constexpr hal::Duration kGhost = 200ms;
 constexpr hal::Duration kReturn = 1s;
+constexpr hal::Duration kFollow = 300ms;
+constexpr hal::Duration kSettled = 1s;
+constexpr double kNoticeablePart = 0.003;
 
 /// Calls visit(place) for each pixel within the border.
 template <class Visit>
@@ -39,18 +42,41 @@ cv::Mat3b smoothed(const cv::Mat3b& picture) {
   return smooth;
 }
 
+/// Sensor noise changes the mean of nine pixels by less than kStillLevels.
+cv::Mat3b meanOfNine(const cv::Mat3b& picture) {
+  cv::Mat3b mean;
+  cv::blur(picture, mean, {3, 3});
+  return mean;
+}
+
 }  // namespace
 
+StillRegion::StillRegion(cv::Size size) : changedAt_(static_cast<std::size_t>(size.area())) {}
+
 void StillRegion::add(const MoverFrame& frame) {
+  const cv::Size size = frame.input.size();
+  const cv::Mat3b mean = meanOfNine(frame.input);
   if (!far_.empty()) {
-    forEachInner(frame.input.size(), [&](cv::Point at) {
-      if (frame.zones.far(at) != 0 || far_(at) != 0) return;
-      const int change = largestDifference(frame.output(at), output_(at));
-      const int own = largestDifference(frame.input(at), input_(at));
-      if (own <= kStillLevels) changed_ += {change > kStillLevels ? 1.0 : 0.0, 1.0};
-      inputChanged_ += {own > kStillLevels ? 1.0 : 0.0, 1.0};
+    cv::Mat1b isFar;
+    cv::bitwise_or(frame.zones.far, far_, isFar);
+    cv::Mat1b isLit(size, 0);
+    forEachInner(size, [&](cv::Point at) {
+      const bool changes = largestDifference(mean(at), mean_(at)) > kStillLevels;
+      if (changes && isFar(at) == 0) isLit(at) = 255;
+    });
+    isLit = grown(isLit, kFarPixels);
+    forEachInner(size, [&](cv::Point at) {
+      auto& changedAt = changedAt_[static_cast<std::size_t>(at.y * size.width + at.x)];
+      if (isLit(at) != 0) changedAt = frame.time;
+      if (isFar(at) != 0) return;
+      const bool isChanged = largestDifference(frame.output(at), output_(at)) > kStillLevels;
+      const bool isOwn = largestDifference(frame.input(at), input_(at)) > kStillLevels;
+      const bool isSettled = !changedAt || frame.time - *changedAt >= kSettled;
+      if (!isOwn && isSettled) changed_ += {isChanged ? 1.0 : 0.0, 1.0};
+      inputChanged_ += {isOwn ? 1.0 : 0.0, 1.0};
     });
   }
+  mean_ = mean;
   input_ = frame.input;
   output_ = frame.output;
   far_ = frame.zones.far;
@@ -62,6 +88,38 @@ std::optional<double> StillRegion::percent() const {
 
 std::optional<double> StillRegion::inputPercent() const {
   return percentOf(inputChanged_);
+}
+
+SuddenChangeRegion::SuddenChangeRegion(cv::Size size)
+    : changes_(static_cast<std::size_t>(size.area())) {}
+
+void SuddenChangeRegion::add(const MoverFrame& frame) {
+  const cv::Size size = frame.input.size();
+  const cv::Mat3b mean = meanOfNine(frame.input);
+  const cv::Mat3b output = smoothed(frame.output);
+  if (!mean_.empty()) {
+    forEachInner(size, [&](cv::Point at) {
+      std::optional<Change>& change = changes_[static_cast<std::size_t>(at.y * size.width + at.x)];
+      const int step = largestDifference(mean(at), mean_(at));
+      if (frame.zones.far(at) != 0 || step > kStillLevels) change.reset();
+      if (frame.zones.far(at) != 0) return;
+      if (step > kContrastLevels) change = Change{frame.time, output_(at), std::nullopt};
+      if (!change) return;
+      const hal::Duration since = frame.time - change->at;
+      if (!change->soonAfter && since >= kFollow) change->soonAfter = output(at);
+      if (since < kSettled) return;
+      apart_ += {meanDifference(*change->soonAfter, output(at)), 1.0};
+      whole_ += {meanDifference(change->before, output(at)), 1.0};
+      change.reset();
+    });
+  }
+  mean_ = mean;
+  output_ = output;
+}
+
+std::optional<double> SuddenChangeRegion::follow() const {
+  if (whole_.weight < kNoticeablePart * static_cast<double>(changes_.size())) return std::nullopt;
+  return ratio(apart_.value(), whole_.value());
 }
 
 Ground::Ground(cv::Size size)

@@ -23,19 +23,48 @@ struct MoverFrame {
 };
 
 /// STILL, percent: the share of pixels whose painting changes by more than 8 levels from one frame
-/// to the next, among those away from movers whose input does not.
+/// to the next, among those away from movers whose input does not, and which are as far from where
+/// it has changed by more than noise, other than by movers, within a second.
 class StillRegion {
  public:
+  explicit StillRegion(cv::Size size);
+
   void add(const MoverFrame& frame);
   std::optional<double> percent() const;
   /// The share of all pixels away from movers whose input changes.
   std::optional<double> inputPercent() const;
 
  private:
-  cv::Mat3b input_, output_;  // of the previous frame
+  cv::Mat3b input_, mean_, output_;  // of the previous frame; the second over 3×3 pixels of it
   cv::Mat1b far_;
+  std::vector<std::optional<hal::TimePoint>> changedAt_;  // the input at or near each pixel
   Mean changed_;
   Mean inputChanged_;
+};
+
+/// Places away from movers whose input changes at once, as where a lamp is switched on, and then
+/// stays as it is for a second. FOLLOW: how far the smoothed painting is 0.3 s after that from what
+/// it comes to, over how far it was before.
+class SuddenChangeRegion {
+ public:
+  explicit SuddenChangeRegion(cv::Size size);
+
+  void add(const MoverFrame& frame);
+  /// Nothing unless 0.3 % of the picture has changed so: less may be a mover that was not found.
+  std::optional<double> follow() const;
+
+ private:
+  /// A change of one pixel that has not been measured yet.
+  struct Change {
+    hal::TimePoint at;
+    cv::Vec3b before;  // the smoothed painting
+    std::optional<cv::Vec3b> soonAfter;
+  };
+  // Of the previous frame: its input over 3×3 pixels, its painting smoothed.
+  cv::Mat3b mean_, output_;
+  std::vector<std::optional<Change>> changes_;
+  Mean apart_;
+  Mean whole_;
 };
 
 /// What each place showed when it was last seen without a mover.

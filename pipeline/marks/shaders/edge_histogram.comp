@@ -1,6 +1,6 @@
 // Purpose: the distribution of the frame's edge strengths: a histogram of every fourth pixel's P,
-//          without virtual objects, so that a model that comes in changes nothing elsewhere.
-// Inputs:  tensors (gradient.frag); ids (ArFrame) if hasObjects.
+//          without virtual objects and movers, so that what comes in changes nothing elsewhere.
+// Inputs:  tensors (gradient.frag); ids (ArFrame) if hasObjects; edge_parts.glsl's; pixelsOfFull.
 // Outputs: bins, which were 0 (edge_threshold.comp). One invocation per pixel.
 // Precision: integer counts, so that order does not matter.
 #include "pipeline/marks/shaders/edge_bins.glsl"
@@ -9,6 +9,8 @@ layout(std430, binding = 0) buffer Edges { EdgeStrengths frameEdges; };
 uniform highp sampler2D tensors;
 uniform highp usampler2D ids;
 uniform bool hasObjects;
+uniform vec2 pixelsOfFull;
+#include "pipeline/marks/shaders/edge_parts.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 
 shared uint counted[kBins];
@@ -19,7 +21,8 @@ void main() {
   barrier();
   ivec2 at = ivec2(gl_GlobalInvocationID.xy) * 2;
   if (all(lessThan(at, textureSize(tensors, 0))) &&
-      !(hasObjects && isVirtual(objectOf(texelFetch(ids, at, 0).r)))) {
+      !(hasObjects && isVirtual(objectOf(texelFetch(ids, at, 0).r))) &&
+      edgePartsAt((vec2(at) + 0.5) / pixelsOfFull).x > 0.5) {
     atomicAdd(counted[binOf(length(texelFetch(tensors, at, 0).xy))], 1u);
   }
   barrier();

@@ -8,7 +8,7 @@
 //          region's side in px of the full image; before, moversBefore: the previous frame's
 //          regions, motion (MotionField's), if hasPast; past: the share of them that remains;
 //          slack: by which part detail may differ from the held value; image_motion.glsl's, flow
-//          backward; mover_labels.glsl's; ids (ArFrame) if hasObjects;
+//          backward; edge_parts.glsl's; ids (ArFrame) if hasObjects;
 //          surfaceMotion (ArFrame::motion) if hasSurfaces.
 // Outputs: regions, moverRegions RGBA16F: as in tensor_region.glsl. One invocation per region.
 // Precision: highp.
@@ -34,7 +34,7 @@ uniform float regionPixels;
 uniform bool hasPast;
 uniform float past;
 uniform float slack;
-#include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/shaders/edge_parts.glsl"
 
 const float kLeastSeen = 0.35;  // of a region: less of the background says nothing about it
 
@@ -45,18 +45,6 @@ const float kReach = 6.0;  // px: half a region, and the width of an edge
 
 bool isInPicture(vec2 px) {
   return all(greaterThanEqual(px, vec2(0.0))) && all(lessThan(px, fullSize));
-}
-
-// How much of a pixel's edge is the background's, and how much a mover's. A mover's outline is its
-// own.
-vec2 partsAt(vec2 px) {
-  const float kOutline = 3.0;  // px
-  float mover = moverAt(px).r;
-  float around = mover;
-  for (int i = 0; i < 4; ++i) {
-    around = max(around, moverAt(px + kOutline * (2.0 * vec2(i & 1, i >> 1) - 1.0)).r);
-  }
-  return vec2(1.0 - around, mover);
 }
 
 // The motion of the pixels of a region that show a plane or a real thing, and its moments.
@@ -151,7 +139,7 @@ void main() {
         if (moved.w != 0.0) add(surface, (vec2(x, y) + 0.5) / pixelsOfFull - at, moved);
       }
       vec2 tensor = texelFetch(tensors, ivec2(x, y), 0).xy;
-      vec2 parts = near > 0.0 ? partsAt((vec2(x, y) + 0.5) / pixelsOfFull) : vec2(1.0, 0.0);
+      vec2 parts = near > 0.0 ? edgePartsAt((vec2(x, y) + 0.5) / pixelsOfFull) : vec2(1.0, 0.0);
       add(ground, tensor, parts.x, threshold);
       if (parts.y > 0.0) add(mover, tensor, parts.y, threshold);
     }

@@ -93,6 +93,7 @@ Json jsonOf(const MoverSummary& movers) {
   return {{"covered_percent", movers.coveredPercent},
           {"still_percent", orNull(movers.stillPercent)},
           {"return_levels", orNull(movers.returnLevels)},
+          {"follow", orNull(movers.follow)},
           {"ghost", orNull(movers.ghost)},
           {"lost_percent", orNull(movers.lostPercent)},
           {"remains_percent", orNull(movers.remainsPercent)}};

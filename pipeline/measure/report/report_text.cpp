@@ -152,10 +152,10 @@ std::vector<std::string> moverLines(const Report& report) {
     return value ? fmt::format("{:.3g}{}", *value, unit) : std::string("not seen");
   };
   const auto line = [&](const char* of, const MoverSummary& movers) {
-    return fmt::format("{}: STILL {}, RETURN {}, GHOST {}, REMAINS {}, LOST {}", of,
+    return fmt::format("{}: STILL {}, RETURN {}, GHOST {}, FOLLOW {}, REMAINS {}, LOST {}", of,
                        text(movers.stillPercent, " %"), text(movers.returnLevels, ""),
-                       text(movers.ghost, ""), text(movers.remainsPercent, " %"),
-                       text(movers.lostPercent, " %"));
+                       text(movers.ghost, ""), text(movers.follow, ""),
+                       text(movers.remainsPercent, " %"), text(movers.lostPercent, " %"));
   };
   const MoverReport& movers = *report.movers;
   std::vector<std::string> lines{

@@ -311,6 +311,63 @@ TEST(MoverMeasures, NoiseOfTheInputHidesNoChange) {
   EXPECT_LT(stillOf(0), 0.01);
 }
 
+/// Nothing moves; a lamp lights half of the wall from frame kSwitched on.
+class MoverMeasuresLamp : public testing::Test {
+ protected:
+  static constexpr int kSwitched = 20;
+
+  static cv::Mat3b lit(int frame, double share) {
+    cv::Mat3b picture = seen(0);
+    cv::Mat3b half = picture(cv::Rect(0, 0, kSize.width / 2, kSize.height));
+    if (frame >= kSwitched) half += cv::Scalar::all(80.0 * share);
+    return picture;
+  }
+  static MoverReport reportOf(const std::function<cv::Mat3b(int)>& paint) {
+    const cv::Mat1b nobody(kSize.height, kSize.width, static_cast<std::uint8_t>(0));
+    MoverMeasures measures;
+    for (int i = 0; i < kFrames; ++i) {
+      measures.add({.time = timeOf(i),
+                    .input = imageOf(lit(i, 1.0)),
+                    .output = imageOf(paint(i)),
+                    .trueMovers = nobody});
+    }
+    return measures.total().value();
+  }
+};
+
+TEST_F(MoverMeasuresLamp, APaintingFollowsIt) {
+  const MoverReport report = reportOf([](int frame) { return lit(frame, 1.0); });
+  EXPECT_NEAR(report.painting.follow.value(), 0.0, 0.01);
+  EXPECT_EQ(report.painting.stillPercent.value(), 0.0);
+  for (const Verdict& verdict : moverVerdicts(report, {})) {
+    EXPECT_NE(verdict.state, Verdict::State::kFailed) << verdict.what << ": " << verdict.found;
+  }
+  int controls = 0;
+  for (const Verdict& verdict : moverControlVerdicts(report, {})) {
+    EXPECT_NE(verdict.state, Verdict::State::kFailed) << verdict.what << ": " << verdict.found;
+    controls += verdict.what.starts_with("FOLLOW") ? 1 : 0;
+  }
+  EXPECT_EQ(controls, 1);
+}
+
+TEST_F(MoverMeasuresLamp, APaintingThatComesHalfWayIn300MsDoesNot) {
+  const MoverReport report = reportOf(
+      [](int frame) { return lit(frame, std::clamp((frame - kSwitched) / 18.0, 0.0, 1.0)); });
+  EXPECT_NEAR(report.painting.follow.value(), 0.5, 0.02);
+  EXPECT_EQ(report.painting.stillPercent.value(), 0.0) << "within a second";
+}
+
+TEST_F(MoverMeasuresLamp, WhatChangesASecondLaterDoesNotStandStill) {
+  const auto stillOf = [](int frames) {
+    const auto paint = [frames](int frame) {
+      return lit(frame, frame < kSwitched + frames ? 1.0 : 0.5);
+    };
+    return reportOf(paint).painting.stillPercent.value();
+  };
+  EXPECT_EQ(stillOf(20), 0.0);
+  EXPECT_GT(stillOf(40), 0.5);
+}
+
 TEST(MoverMeasures, ControlsThatMustFailDo) {
   const MoverReport report = reportOf(seen);
   for (const Verdict& verdict : moverControlVerdicts(report, {})) {
