@@ -252,5 +252,33 @@ TEST_F(TensorsBehindAMover, WithoutLayersTheyTurnToTheMovers) {
   }
 }
 
+/// What is a strong edge is judged among those of the background: a mover's are the strongest here.
+TEST_F(TensorsBehindAMover, EdgesElsewhereAreAsStrongAsBefore) {
+  const auto detailBeside = [&] {
+    double sum = 0.0;
+    const std::vector<FieldTexel> regions = read(field_->regions());
+    for (int y = 2; y < 14; ++y) {
+      for (int x = 2; x < 7; ++x) sum += regions[placeOf(x, y)].detail / 60.0;
+    }
+    return sum;
+  };
+  for (const bool hasLayers : {true, false}) {
+    if (hasLayers) {
+      layers_.emplace(library_, kSize);
+    } else {
+      layers_.reset();
+    }
+    field_->reset();
+    see(wall, 8);
+    const double before = detailBeside();
+    see(wallAndDisc, 12);
+    if (hasLayers) {
+      EXPECT_NEAR(detailBeside(), before, 0.03 * before);
+    } else {
+      EXPECT_LT(detailBeside(), 0.7 * before) << "the control";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pleinair::marks
