@@ -39,6 +39,10 @@ constexpr std::size_t kGroundCommand = 12;
 constexpr std::size_t kMotionCommand = 15;
 constexpr std::size_t kBusyWords = 21;
 constexpr std::size_t kBusyWordsOfBlock = 3;
+constexpr std::size_t kRegistrations = 2;  // steps of shaders/mover_registration.comp
+/// Weight of the motion found before, in parts of what is seen: flow beside an outline falls short.
+constexpr float kFlowDamping = 0.5F;
+constexpr float kDamping = 0.01F;
 constexpr GLbitfield kStored = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                                GL_SHADER_STORAGE_BARRIER_BIT;
 
@@ -84,6 +88,8 @@ struct MotionLayers::State {
         findGround(library.compute(kShaders + "motion_layers_ground.comp")),
         findEdges(library.compute(kShaders + "mover_edges.comp")),
         findMotion(library.compute(kShaders + "mover_motion.comp")),
+        smoothMotion(library.compute(kShaders + "mover_smooth.comp")),
+        registerMovers(library.compute(kShaders + "mover_registration.comp")),
         join(library.compute(kShaders + "motion_layers_join.comp")),
         carry(library.compute(kShaders + "mover_carry.comp")),
         countParts(library.compute(kShaders + "mover_parts_count.comp")),
@@ -97,9 +103,6 @@ struct MotionLayers::State {
         numbers(TextureFormat::kRgba8, blocksOf(size)),
         parts(kPartBytes * static_cast<std::size_t>(blocksOf(size).pixels()),
               gpu::BufferUsage::kDynamic),
-        normals(TextureFormat::kRgba16f, blocksOfAll(size)),
-        normalFlow(TextureFormat::kRgba16f, blocksOfAll(size)),
-        moverMotion(TextureFormat::kRgba16f, blocksOfAll(size)),
         tally(kTallied * kTurns * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
         busy(sizeof(std::uint32_t) *
                  (kBusyWords +
@@ -110,6 +113,9 @@ struct MotionLayers::State {
     tally.write(std::vector<std::byte>(tally.sizeBytes()));
     busy.write(std::vector<std::byte>(busy.sizeBytes()));
     for (std::size_t i = 0; i < 2; ++i) {
+      motions.at(i) = {TextureFormat::kRgba16f, blocksOfAll(size)};
+      normals.at(i) = {TextureFormat::kRgba16f, blocksOfAll(size)};
+      normalFlow.at(i) = {TextureFormat::kRgba16f, blocksOfAll(size)};
       pictures.at(i) = {TextureFormat::kRgba8, size, TextureFilter::kLinear};
       labels.at(i) = {TextureFormat::kRgba16f, size, TextureFilter::kLinear};
       shares.at(i) = {TextureFormat::kRgba8, size, TextureFilter::kLinear};
@@ -131,6 +137,8 @@ struct MotionLayers::State {
   gpu::Program findGround;
   gpu::Program findEdges;
   gpu::Program findMotion;
+  gpu::Program smoothMotion;
+  gpu::Program registerMovers;
   gpu::Program join;
   gpu::Program carry;
   gpu::Program countParts;
@@ -143,9 +151,9 @@ struct MotionLayers::State {
   gpu::Texture carried;
   gpu::Texture numbers;
   gpu::Buffer parts;
-  gpu::Texture normals;
-  gpu::Texture normalFlow;
-  gpu::Texture moverMotion;
+  std::array<gpu::Texture, 2> normals;
+  std::array<gpu::Texture, 2> normalFlow;
+  std::array<gpu::Texture, 2> motions;  // of movers; `motionAt` is the last that was found
   std::array<gpu::Texture, 2> pictures;
   std::array<gpu::Texture, 2> labels;
   std::array<gpu::Texture, 2> shares;
@@ -154,6 +162,7 @@ struct MotionLayers::State {
   gpu::Buffer busy;  // shaders/busy_blocks.glsl
   gpu::Texture noIds;
   gpu::Texture noMotion;
+  std::size_t motionAt = 0;
   std::size_t now = 0;  // which of the two are this frame's
   unsigned turn = 0;
   hal::FrameSize frameSize;  // of the last update
@@ -166,6 +175,7 @@ struct MotionLayers::State {
   hal::Duration sinceStanding = kStandingHold;
   hal::Duration sinceFirst{0};  // since the first frame
 
+  const gpu::Texture& moverMotion() const { return motions.at(motionAt); }
   glm::ivec2 cells() const { return {size.width, size.height}; }
   glm::ivec2 blocks() const { return {numbers.size().width, numbers.size().height}; }
   void forgetFront() {
@@ -196,6 +206,9 @@ struct MotionLayers::State {
   BusyBlocks busyBlocks() const { return {&busy, kBusyCommand * sizeof(std::uint32_t), blocks()}; }
   /// Which mover each cell of this frame's labels belongs to.
   void tellApart(const scene::ArFrame& frame, const MotionField& motion, float motionScale);
+  /// How movers move, from dense flow at their edges and then from how they lie on the previous
+  /// frame's.
+  void followMovers(const scene::ArFrame& frame, const MotionField& motion, float motionScale);
 };
 
 void MotionLayers::State::bindBackground(gpu::Program& program, const scene::ArFrame& frame,
@@ -245,7 +258,7 @@ void MotionLayers::State::tellApart(const scene::ArFrame& frame, const MotionFie
       .texture("picture", pictures.at(now))
       .texture("lastPicture", pictures.at(before))
       .texture("moverShares", shares.at(before))
-      .texture("moverMotion", moverMotion)
+      .texture("moverMotion", moverMotion())
       .set("motionScale", motionScale)
       .set("reach", 1)
       .image("carried", carried, ImageAccess::kWrite);
@@ -256,7 +269,7 @@ void MotionLayers::State::tellApart(const scene::ArFrame& frame, const MotionFie
       .storage("Blocks", parts);
   dispatchBusy(countParts, kCountCommand);
   findParts.use()
-      .texture("moverMotion", moverMotion)
+      .texture("moverMotion", moverMotion())
       .storage("Blocks", parts)
       .set("grid", blocks())
       .image("numbers", numbers, ImageAccess::kWrite);
@@ -269,6 +282,55 @@ void MotionLayers::State::tellApart(const scene::ArFrame& frame, const MotionFie
       .set("reach", 1)
       .image("shares", shares.at(now), ImageAccess::kWrite);
   dispatchBusy(number, kBusyCommand);
+}
+
+void MotionLayers::State::followMovers(const scene::ArFrame& frame, const MotionField& motion,
+                                       float motionScale) {
+  const std::size_t before = 1 - now;
+  motion.bindBackward(findEdges.use());
+  bindBackground(findEdges, frame, motion);
+  findEdges.texture("moverShares", shares.at(now))
+      .texture("picture", pictures.at(now))
+      .texture("moverMotion", moverMotion())
+      .set("motionScale", motionScale)
+      .image("normals", normals.at(0), ImageAccess::kWrite)
+      .image("normalFlow", normalFlow.at(0), ImageAccess::kWrite);
+  dispatchBusy(findEdges, kMotionCommand);
+  const auto solve = [&](std::size_t which, float earlierScale, float damping) {
+    const gpu::Texture& earlier = moverMotion();
+    motionAt = 1 - motionAt;
+    bindBusy(findMotion.use())
+        .texture("earlier", earlier)
+        .set("earlierScale", earlierScale)
+        .set("damping", damping)
+        .texture("normals", normals.at(which))
+        .texture("normalFlow", normalFlow.at(which))
+        .image("moverMotion", motions.at(motionAt), ImageAccess::kWrite);
+    dispatchBusy(findMotion, kMotionCommand);
+  };
+  solve(0, motionScale, kFlowDamping);
+  for (std::size_t i = 0; i < kRegistrations && hasPast; ++i) {
+    const std::size_t from = i % 2;
+    motion.bind(registerMovers.use());
+    bindBackground(registerMovers, frame, motion);
+    registerMovers.texture("moverShares", shares.at(now))
+        .texture("lastShares", shares.at(before))
+        .texture("picture", pictures.at(now))
+        .texture("lastPicture", pictures.at(before))
+        .texture("moverMotion", moverMotion())
+        .texture("edges", normals.at(from))
+        .texture("edgeFlow", normalFlow.at(from))
+        .image("normals", normals.at(1 - from), ImageAccess::kWrite)
+        .image("normalFlow", normalFlow.at(1 - from), ImageAccess::kWrite);
+    dispatchBusy(registerMovers, kMotionCommand);
+    solve(1 - from, 1.0F, kDamping);
+  }
+  const gpu::Texture& found = moverMotion();
+  motionAt = 1 - motionAt;
+  smoothMotion.use()
+      .texture("found", found)
+      .image("moverMotion", motions.at(motionAt), ImageAccess::kWrite);
+  dispatchBusy(smoothMotion, kMotionCommand);
 }
 
 MotionLayers::MotionLayers(const gpu::ShaderLibrary& library, hal::FrameSize full)
@@ -296,10 +358,12 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
   s.beginToCompare(isAtRest ? s.compareAtRest : s.compare, frame, motion, step)
       .image("pictureNow", s.pictures.at(s.now), ImageAccess::kWrite)
       .dispatch(s.cells(), kStored);
-  s.bindBusy(s.markNear.use()).texture("moverMotion", s.moverMotion).dispatch(s.blocks(), kStored);
+  s.bindBusy(s.markNear.use())
+      .texture("moverMotion", s.moverMotion())
+      .dispatch(s.blocks(), kStored);
   s.bindBusy(s.listNear.use()).dispatch({1, 1}, kListed);
   s.beginToCompare(s.compareNear, frame, motion, step)
-      .texture("moverMotion", s.moverMotion)
+      .texture("moverMotion", s.moverMotion())
       .texture("moverShares", s.shares.at(before))
       .set("motionScale", motionScale);
   s.dispatchBusy(s.compareNear, kNearCommand);
@@ -345,20 +409,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .image("backgroundNow", s.backgrounds.at(s.now), ImageAccess::kWrite);
   s.dispatchBusy(s.join, kBusyCommand);
   s.tellApart(frame, motion, motionScale);
-  motion.bindBackward(s.findEdges.use());
-  s.bindBackground(s.findEdges, frame, motion);
-  s.findEdges.texture("moverShares", s.shares.at(s.now))
-      .texture("picture", s.pictures.at(s.now))
-      .texture("moverMotion", s.moverMotion)
-      .set("motionScale", motionScale)
-      .image("normals", s.normals, ImageAccess::kWrite)
-      .image("normalFlow", s.normalFlow, ImageAccess::kWrite);
-  s.dispatchBusy(s.findEdges, kMotionCommand);
-  s.bindBusy(s.findMotion.use())
-      .texture("normals", s.normals)
-      .texture("normalFlow", s.normalFlow)
-      .image("moverMotion", s.moverMotion, ImageAccess::kWrite);
-  s.dispatchBusy(s.findMotion, kMotionCommand);
+  s.followMovers(frame, motion, motionScale);
   if (frame.hasObjects) {
     s.front.update(frame, s.labels.at(s.now), s.shares.at(s.now), s.busyBlocks(),
                    s.hasPast && motion.isStanding(), step);
@@ -396,7 +447,7 @@ const gpu::Texture& MotionLayers::background() const {
 }
 
 const gpu::Texture& MotionLayers::moverMotion() const {
-  return state_->moverMotion;
+  return state_->moverMotion();
 }
 
 bool MotionLayers::isStanding() const {

@@ -36,36 +36,15 @@ uniform uint slots;
 #include "pipeline/marks/shaders/mover_motion.glsl"
 
 const float kOutline = 5.0;       // px around a mover in which its outline may be seen
-const float kPlain = 0.006;       // of luma, with kPlainNoise deviations: shows half of a motion
-const float kPlainNoise = 2.0;
 const float kMaxFlowError = 8.0;  // px
 const float kCoveredMover = 1.5;  // s: so long an anchor of a mover stays behind another one
 const float kBesideAnother = 12.0;  // px: the measured motion may be that of another mover
 
-// The part of a displacement that the contrast around a place shows: all of it where there is
-// texture, what is across an edge, and none where nothing is seen.
-vec2 seenPart(vec2 displacement, vec2 px) {
-  vec4 corners;
-  for (int i = 0; i < 4; ++i) {
-    vec2 at = px + kReach * (2.0 * vec2(i & 1, i >> 1) - 1.0);
-    corners[i] = lumaOf(textureLod(picture, at / fullSize, 0.0).rgb);
-  }
-  vec2 along = corners.yw - corners.xz;
-  vec2 down = corners.zw - corners.xy;
-  float xx = 0.5 * dot(along, along);
-  float yy = 0.5 * dot(down, down);
-  float xy = 0.25 * (along.x + along.y) * (down.x + down.y);
-  float least = kPlain + kPlainNoise * noise;
-  least *= least;
-  mat2 seen = mat2(xx, xy, xy, yy);
-  return inverse(seen + mat2(least)) * (seen * displacement);
-}
-
 // The motion of an anchor of the camera image. Each search is asked at one place of the text: what a
 // compiler inlines twice, it has no registers for.
 //
-// A mover moves as dense flow says where its texture shows it: it is not still, and the image's
-// homography is the background's. Its plain parts, and those along an edge, go with the others.
+// A mover goes as how it lies on its last picture says (mover_motion.glsl): it is not still, and the
+// image's homography is the background's. Dense flow beside its outline is part of the background's.
 //
 // The background moves as one; a mover's motion must not carry it along.
 //
@@ -84,8 +63,6 @@ Moved measuredAt(vec2 px, float object, int mover, bool isBesideMover, Moved flo
   if (hasOwn) {
     const float kError = 1.0;  // px
     if (!restsWithCamera) own += byPicture(px, false).displacement;
-    isFlowKnown = isFlowKnown && !isBesideAnother;
-    if (isFlowKnown) own += seenPart(flowed.displacement - own, px + own);
     // The turn that flow shows within a few pixels is mostly its noise.
     return Moved(own, kError, kSourceFlow | kStraight);
   }

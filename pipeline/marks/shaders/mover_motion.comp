@@ -1,7 +1,11 @@
-// Purpose: the motion of movers, in blocks of cells: that which agrees best with the edges around
-//          (Lucas and Kanade, "An iterative image registration technique", 1981), in a window that
-//          grows over the mover until they have more than one direction.
-// Inputs:  normals, normalFlow (mover_edges.comp).
+// Purpose: the motion of movers, in blocks of cells: that which agrees best with what is seen around
+//          (Lucas and Kanade, "An iterative image registration technique", 1981), in windows from
+//          the widest to the narrowest. What a window does not show, as along a single edge, stays
+//          as the wider one has it, and what that does not, as it was: so a plain coat goes with its
+//          outline, and a leg by itself.
+// Inputs:  normals, normalFlow (mover_edges.comp, mover_registration.comp); earlier: what was found
+//          before, of which earlierScale (its step over this one's) is expected; damping: the weight
+//          of that, in parts of what is seen.
 // Outputs: moverMotion RGBA16F: displacement since the previous frame, less the background's (px of
 //          the full image), times weight, and the weight, 0 where the mover is not near; the movers'
 //          blocks are one above the other. The highest mover of busy_blocks.glsl. One invocation per
@@ -12,11 +16,16 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D moverMotion;
 uniform highp sampler2D normals;
 uniform highp sampler2D normalFlow;
+uniform highp sampler2D earlier;
+uniform float earlierScale;
+uniform float damping;
 uniform uint turn;  // as in motion_layers_tally.glsl
 
 const float kEnough = 12.0;  // the smaller eigenvalue: some edges of both directions
-const float kBalance = 0.1;  // the smaller eigenvalue, in parts of the larger one
 const float kLeast = 0.5;    // the sum of both: any edges at all
+const float kClear = 0.1;    // weight of what was found before: no need to look far
+const float kPrior = 0.2;    // weight of the wider window's motion, as of an edge
+const float kFarPrior = 0.1;
 const int kNearest = 2;      // blocks in which all movers count
 const int kFarthest = 8;     // blocks
 
@@ -48,14 +57,31 @@ int presentAround(ivec2 block, ivec2 size) {
   return present;
 }
 
+// What was found before around a block, above all where both directions were seen; and its weight.
+vec3 earlierAround(ivec2 block, ivec2 size, int row) {
+  vec3 sum = vec3(0.0);
+  float all = 0.0;
+  for (int i = 0; i < 9; ++i) {
+    ivec2 arm = ivec2(i % 3, i / 3) - 1;
+    ivec2 at = block + arm;
+    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size))) continue;
+    float weight = exp(-0.7 * float(arm.x * arm.x + arm.y * arm.y));
+    all += weight;
+    sum += weight * texelFetch(earlier, ivec2(at.x, row + at.y), 0).xyz;
+  }
+  return vec3(sum.z > 0.0 ? earlierScale * sum.xy / sum.z : vec2(0.0), sum.z / all);
+}
+
 vec4 motionAt(ivec2 block, ivec2 size, int row) {
-  vec3 matrix = vec3(0.0);
-  vec2 moved = vec2(0.0);
+  vec3 expected = earlierAround(block, size, row);
+  vec2 displacement = expected.xy;
   vec2 values = vec2(0.0);
-  int farthest = texelFetch(normals, ivec2(block.x, row + block.y), 0).a > 0.0 ? kFarthest : kNearest;
-  for (int radius = 1; radius <= farthest; radius *= 2) {
-    matrix = vec3(0.0);
-    moved = vec2(0.0);
+  float seen = 0.0;
+  bool isHere = texelFetch(normals, ivec2(block.x, row + block.y), 0).a > 0.0;
+  int farthest = isHere && expected.z <= kClear ? kFarthest : kNearest;
+  for (int radius = farthest; radius >= 1; radius /= 2) {
+    vec3 matrix = vec3(0.0);
+    vec2 moved = vec2(0.0);
     float fall = 1.0 / float(radius * radius);
     for (int y = -radius; y <= radius; ++y) {
       for (int x = -radius; x <= radius; ++x) {
@@ -69,14 +95,15 @@ vec4 motionAt(ivec2 block, ivec2 size, int row) {
         moved += weight * texelFetch(normalFlow, ivec2(at.x, row + at.y), 0).xy;
       }
     }
-    values = eigenvaluesOf(matrix);
-    if (values.y > max(kEnough, kBalance * values.x)) break;
+    vec2 here = eigenvaluesOf(matrix);
+    float sum = here.x + here.y;
+    if (radius >= kNearest) seen = max(seen, sum);
+    if (radius == kNearest) values = here;
+    float prior = damping * sum + (radius > kNearest ? kFarPrior : kPrior);
+    mat2 damped = mat2(matrix.x, matrix.y, matrix.y, matrix.z) + mat2(prior);
+    displacement = inverse(damped) * (moved + prior * displacement);
   }
-  float sum = values.x + values.y;
-  if (!(sum >= kLeast)) return vec4(0.0);
-  // Where only one direction is seen, the other one stays near 0.
-  mat2 damped = mat2(matrix.x, matrix.y, matrix.y, matrix.z) + mat2(0.01 * sum);
-  vec2 displacement = inverse(damped) * moved;
+  if (!(seen >= kLeast)) return vec4(0.0);
   float weight = min(values.y / kEnough, 1.0) + 1e-2;
   return vec4(weight * vec3(displacement, 1.0), 0.0);
 }

@@ -1,0 +1,159 @@
+// How movers go, from how they lie on their last picture: dense flow, which beside an outline holds
+// the background too, says too little.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+
+#include "tests/gpu/marks/motion_layers_fixture.h"
+
+namespace pleinair::marks {
+namespace {
+
+/// A plain body before a wall and a limb that hangs from it, of one colour.
+class MoverRegistration : public MotionLayersTest {
+ protected:
+  struct Pose {
+    double body = 0.0;  ///< px from the left
+    double limb = 0.0;
+  };
+  static constexpr double kBodyTop = 40.0;
+  static constexpr double kLimbTop = 130.0;
+  static constexpr double kLimbBottom = 215.0;
+  static constexpr double kHalfBody = 38.0;
+  static constexpr double kHalfLimb = 13.0;
+
+  static bool isBody(const Pose& pose, glm::dvec2 px, double more = 0.0) {
+    return px.y > kBodyTop - more && px.y < kLimbTop + more &&
+           std::abs(px.x - pose.body) < kHalfBody + more;
+  }
+  static bool isLimb(const Pose& pose, glm::dvec2 px, double more = 0.0) {
+    return px.y >= kLimbTop && px.y < kLimbBottom + more &&
+           std::abs(px.x - pose.limb) < kHalfLimb + more;
+  }
+
+  /// The mover goes from the last pose to this one. Of that of the body, flow says the given share,
+  /// on the limb as on the body.
+  void seePose(const Pose& pose, double share) {
+    constexpr hal::FrameSize kNodes{40, 30};
+    constexpr double kNodePx = 8.0;
+    constexpr float kErrorPx = 0.1F;
+    constexpr double kBleeding = 8.0;
+    const Pose last = last_.value_or(pose);
+    const glm::vec2 said(share * (pose.body - last.body), 0.0);
+    std::vector<glm::vec4> forward;
+    std::vector<glm::vec4> backward;
+    for (int y = 0; y < kNodes.height; ++y) {
+      for (int x = 0; x < kNodes.width; ++x) {
+        const glm::dvec2 px = kNodePx * (glm::dvec2(x, y) + 0.5);
+        const auto isMover = [&](const Pose& there) {
+          return isBody(there, px, kBleeding) || isLimb(there, px, kBleeding);
+        };
+        forward.emplace_back(isMover(last) ? said : glm::vec2(0.0F), kErrorPx, 0.0F);
+        backward.emplace_back(isMover(pose) ? -said : glm::vec2(0.0F), kErrorPx, 0.0F);
+      }
+    }
+    tracking::ImageMotion motion = panning(0.0, 0.0);
+    motion.picture->errorPx = 1.0;
+    motion.flow = {
+        .nodes = kNodes, .stepPx = glm::vec2(kNodePx), .forward = forward, .backward = backward};
+    hal::Image image = seen({}, kSize, ++noise_);
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) {
+        const glm::dvec2 px(x, y);
+        if (!isBody(pose, px) && !isLimb(pose, px)) continue;
+        std::uint8_t* const p = image.row(0, y).data() + std::ptrdiff_t{4} * x;
+        p[0] = 235;
+        p[1] = 60;
+        p[2] = 30;
+      }
+    }
+    seeImage(image, motion);
+    last_ = pose;
+  }
+
+  /// The displacement of the mover that is nearest to a place.
+  glm::vec2 motionAt(glm::dvec2 px) const {
+    const std::vector<glm::vec4> texels = texelsOf(layers_->moverMotion());
+    const hal::FrameSize size = layers_->moverMotion().size();
+    const int rows = size.height / MotionLayers::kMostMovers;
+    const glm::ivec2 block(
+        px / static_cast<double>(MotionLayers::kCellPixels * MotionLayers::kBlockCells));
+    glm::vec4 best(0.0F);
+    for (int i = 0; i < MotionLayers::kMostMovers; ++i) {
+      const auto at = static_cast<std::size_t>((i * rows + block.y) * size.width + block.x);
+      if (texels.at(at).z > best.z) best = texels.at(at);
+    }
+    return best.z > 0.0F ? glm::vec2(best) / best.z : glm::vec2(0.0F);
+  }
+
+ private:
+  std::optional<Pose> last_;
+  unsigned noise_ = 0;
+};
+
+/// Flow says 60 % of its motion, as it does beside outlines.
+TEST_F(MoverRegistration, APlainMoverIsFollowedThoughFlowFallsShort) {
+  constexpr double kSpeed = 6.0;
+  constexpr double kSaid = 0.6;
+  constexpr int kFirst = 8;
+  constexpr int kLast = 21;
+  for (int i = 0; i < 6; ++i) see({});
+  double body = 0.0;
+  double limb = 0.0;
+  double anchors = 0.0;
+  int count = 0;
+  for (int i = 0; i <= kLast; ++i) {
+    const Pose pose{60.0 + kSpeed * i, 60.0 + kSpeed * i};
+    seePose(pose, kSaid);
+    if (i < kFirst) continue;
+    body += motionAt({pose.body, 80.0}).x;
+    limb += motionAt({pose.limb, 170.0}).x;
+    for (const Anchor& anchor : set_->read()) {
+      if (!anchor.isStaying() || anchor.isBorn() || (anchor.state & Anchor::kMover) == 0) continue;
+      anchors += anchor.displacementPx.x;
+      ++count;
+    }
+  }
+  // Of what flow misses, half is left at most.
+  const double least = kSpeed - (1.0 - kSaid) * kSpeed / 2.0;
+  constexpr int kFrames = kLast - kFirst + 1;
+  EXPECT_GT(body / kFrames, least);
+  EXPECT_GT(limb / kFrames, least);
+  EXPECT_LT(std::max(body, limb) / kFrames, kSpeed + 0.2);
+  EXPECT_GT(count, 20 * kFrames);
+  EXPECT_GT(anchors / count, least);
+}
+
+TEST_F(MoverRegistration, ALimbGoesByItself) {
+  constexpr double kSpeed = 3.0;
+  constexpr double kSwing = 16.0;
+  const auto poseOf = [](int frame) {
+    const double body = 80.0 + kSpeed * frame;
+    return Pose{body, body + kSwing * std::sin(0.45 * frame)};
+  };
+  for (int i = 0; i < 6; ++i) see({});
+  double worstBody = 0.0;
+  double off = 0.0;  // of the limb's own motion
+  double swing = 0.0;
+  for (int i = 0; i < 36; ++i) {
+    const Pose pose = poseOf(i);
+    seePose(pose, 1.0);
+    if (i < 8) continue;
+    const double truth = pose.limb - poseOf(i - 1).limb;
+    off += std::abs(motionAt({pose.limb, 180.0}).x - truth);
+    swing += std::abs(truth - kSpeed);
+    worstBody = std::max(worstBody, std::abs(motionAt({pose.body, 72.0}).x - kSpeed));
+  }
+  EXPECT_GT(swing / 28, 3.0);
+  EXPECT_LT(off, 0.35 * swing) << "as far off as the body's motion: 1";
+  EXPECT_LT(worstBody, 1.0);
+}
+
+}  // namespace
+}  // namespace pleinair::marks
