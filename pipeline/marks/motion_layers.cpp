@@ -1,8 +1,10 @@
 #include "pipeline/marks/motion_layers.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -40,9 +42,12 @@ constexpr std::size_t kMotionCommand = 15;
 constexpr std::size_t kBusyWords = 21;
 constexpr std::size_t kBusyWordsOfBlock = 3;
 constexpr std::size_t kRegistrations = 2;  // steps of shaders/mover_registration.comp
-/// Weight of the motion found before, in parts of what is seen: flow beside an outline falls short.
+/// Weights of what is known before, in parts of what is seen: flow beside an outline falls short,
+/// registration does not.
 constexpr float kFlowDamping = 0.5F;
 constexpr float kDamping = 0.01F;
+constexpr float kMostMotionScale = 4.0F;
+constexpr float kFadeSeconds = 0.3F;  // of a motion of which nothing is seen
 constexpr GLbitfield kStored = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                                GL_SHADER_STORAGE_BARRIER_BIT;
 
@@ -114,6 +119,9 @@ struct MotionLayers::State {
     busy.write(std::vector<std::byte>(busy.sizeBytes()));
     for (std::size_t i = 0; i < 2; ++i) {
       motions.at(i) = {TextureFormat::kRgba16f, blocksOfAll(size)};
+      const gpu::RenderTarget target({&motions.at(i)});  // read before it is first written
+      target.beginKeeping();
+      target.clearColour(0, glm::vec4(0.0F));
       normals.at(i) = {TextureFormat::kRgba16f, blocksOfAll(size)};
       normalFlow.at(i) = {TextureFormat::kRgba16f, blocksOfAll(size)};
       pictures.at(i) = {TextureFormat::kRgba8, size, TextureFilter::kLinear};
@@ -208,7 +216,8 @@ struct MotionLayers::State {
   void tellApart(const scene::ArFrame& frame, const MotionField& motion, float motionScale);
   /// How movers move, from dense flow at their edges and then from how they lie on the previous
   /// frame's.
-  void followMovers(const scene::ArFrame& frame, const MotionField& motion, float motionScale);
+  void followMovers(const scene::ArFrame& frame, const MotionField& motion, float motionScale,
+                    float stepSeconds);
 };
 
 void MotionLayers::State::bindBackground(gpu::Program& program, const scene::ArFrame& frame,
@@ -285,7 +294,7 @@ void MotionLayers::State::tellApart(const scene::ArFrame& frame, const MotionFie
 }
 
 void MotionLayers::State::followMovers(const scene::ArFrame& frame, const MotionField& motion,
-                                       float motionScale) {
+                                       float motionScale, float stepSeconds) {
   const std::size_t before = 1 - now;
   motion.bindBackward(findEdges.use());
   bindBackground(findEdges, frame, motion);
@@ -296,19 +305,21 @@ void MotionLayers::State::followMovers(const scene::ArFrame& frame, const Motion
       .image("normals", normals.at(0), ImageAccess::kWrite)
       .image("normalFlow", normalFlow.at(0), ImageAccess::kWrite);
   dispatchBusy(findEdges, kMotionCommand);
-  const auto solve = [&](std::size_t which, float earlierScale, float damping) {
+  const auto solve = [&](std::size_t which, float earlierScale, float fade, float damping) {
     const gpu::Texture& earlier = moverMotion();
     motionAt = 1 - motionAt;
     bindBusy(findMotion.use())
         .texture("earlier", earlier)
         .set("earlierScale", earlierScale)
+        .set("fade", fade)
         .set("damping", damping)
         .texture("normals", normals.at(which))
         .texture("normalFlow", normalFlow.at(which))
         .image("moverMotion", motions.at(motionAt), ImageAccess::kWrite);
     dispatchBusy(findMotion, kMotionCommand);
   };
-  solve(0, motionScale, kFlowDamping);
+  solve(0, std::min(motionScale, kMostMotionScale), std::exp(-stepSeconds / kFadeSeconds),
+        kFlowDamping);
   for (std::size_t i = 0; i < kRegistrations && hasPast; ++i) {
     const std::size_t from = i % 2;
     motion.bind(registerMovers.use());
@@ -318,12 +329,13 @@ void MotionLayers::State::followMovers(const scene::ArFrame& frame, const Motion
         .texture("picture", pictures.at(now))
         .texture("lastPicture", pictures.at(before))
         .texture("moverMotion", moverMotion())
+        .set("noise", noiseOf(motion))
         .texture("edges", normals.at(from))
         .texture("edgeFlow", normalFlow.at(from))
         .image("normals", normals.at(1 - from), ImageAccess::kWrite)
         .image("normalFlow", normalFlow.at(1 - from), ImageAccess::kWrite);
     dispatchBusy(registerMovers, kMotionCommand);
-    solve(1 - from, 1.0F, kDamping);
+    solve(1 - from, 1.0F, 1.0F, kDamping);
   }
   const gpu::Texture& found = moverMotion();
   motionAt = 1 - motionAt;
@@ -409,7 +421,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .image("backgroundNow", s.backgrounds.at(s.now), ImageAccess::kWrite);
   s.dispatchBusy(s.join, kBusyCommand);
   s.tellApart(frame, motion, motionScale);
-  s.followMovers(frame, motion, motionScale);
+  s.followMovers(frame, motion, motionScale, step);
   if (frame.hasObjects) {
     s.front.update(frame, s.labels.at(s.now), s.shares.at(s.now), s.busyBlocks(),
                    s.hasPast && motion.isStanding(), step);

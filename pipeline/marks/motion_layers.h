@@ -79,7 +79,7 @@ class MotionLayers {
   hal::Image readMovers() const;
 
   /// RGBA16F; a texel is kBlockCells² cells, of the movers 1 to kMostMovers one above the other.
-  /// RG: displacement of the mover's edges since the previous frame, less the background's, px of
+  /// RG: displacement of the mover since the previous frame, less the background's, px of
   /// the full image, times their weight; B: that weight.
   const gpu::Texture& moverMotion() const;
   static constexpr int kBlockCells = 8;

@@ -34,7 +34,7 @@ constexpr const char* kNothingUncovered = "no mover came and went";
 constexpr const char* kNoClearMover = "no mover came that differs from the ground";
 constexpr const char* kNothingFollowed = "no mover was seen for three frames";
 constexpr const char* kNoMover = "no mover was seen";
-constexpr const char* kNothingStill = "movers are everywhere";
+constexpr const char* kNothingStill = "movers, or light that changes, are everywhere";
 
 constexpr Limit kStillLimit{"STILL", " %", kMaxStillPercent, kNothingStill};
 constexpr Limit kFollowLimit{"FOLLOW", "", kMaxFollow, "no light changed at once"};

@@ -64,6 +64,7 @@ void StillRegion::add(const MoverFrame& frame) {
       const bool changes = largestDifference(mean(at), mean_(at)) > kStillLevels;
       if (changes && isFar(at) == 0) isLit(at) = 255;
     });
+    cv::morphologyEx(isLit, isLit, cv::MORPH_OPEN, cv::Mat1b::ones(3, 3));  // noise is no lamp
     isLit = grown(isLit, kFarPixels);
     forEachInner(size, [&](cv::Point at) {
       auto& changedAt = changedAt_[static_cast<std::size_t>(at.y * size.width + at.x)];
@@ -101,8 +102,9 @@ void SuddenChangeRegion::add(const MoverFrame& frame) {
     forEachInner(size, [&](cv::Point at) {
       std::optional<Change>& change = changes_[static_cast<std::size_t>(at.y * size.width + at.x)];
       const int step = largestDifference(mean(at), mean_(at));
-      if (frame.zones.far(at) != 0 || step > kStillLevels) change.reset();
-      if (frame.zones.far(at) != 0) return;
+      const bool isFar = frame.zones.far(at) != 0 || far_(at) != 0;
+      if (isFar || step > kStillLevels) change.reset();
+      if (isFar) return;
       if (step > kContrastLevels) change = Change{frame.time, output_(at), std::nullopt};
       if (!change) return;
       const hal::Duration since = frame.time - change->at;
@@ -115,10 +117,13 @@ void SuddenChangeRegion::add(const MoverFrame& frame) {
   }
   mean_ = mean;
   output_ = output;
+  far_ = frame.zones.far;
 }
 
 std::optional<double> SuddenChangeRegion::follow() const {
   if (whole_.weight < kNoticeablePart * static_cast<double>(changes_.size())) return std::nullopt;
+  // Of a painting that has not changed within a second.
+  if (whole_.value().value_or(0) == 0) return 1.0;
   return ratio(apart_.value(), whole_.value());
 }
 

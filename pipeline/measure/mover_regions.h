@@ -62,6 +62,7 @@ class SuddenChangeRegion {
   };
   // Of the previous frame: its input over 3×3 pixels, its painting smoothed.
   cv::Mat3b mean_, output_;
+  cv::Mat1b far_;
   std::vector<std::optional<Change>> changes_;
   Mean apart_;
   Mean whole_;

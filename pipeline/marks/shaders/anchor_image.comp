@@ -38,24 +38,24 @@ uniform uint slots;
 const float kOutline = 5.0;       // px around a mover in which its outline may be seen
 const float kMaxFlowError = 8.0;  // px
 const float kCoveredMover = 1.5;  // s: so long an anchor of a mover stays behind another one
-const float kBesideAnother = 12.0;  // px: the measured motion may be that of another mover
 
 // The motion of an anchor of the camera image. Each search is asked at one place of the text: what a
 // compiler inlines twice, it has no registers for.
 //
 // A mover goes as how it lies on its last picture says (mover_motion.glsl): it is not still, and the
-// image's homography is the background's. Dense flow beside its outline is part of the background's.
+// image's homography is the background's. Dense flow beside its outline is partly the
+// background's.
 //
 // The background moves as one; a mover's motion must not carry it along.
 //
-// `mover`: the number of its mover, 0 for none.
-Moved measuredAt(vec2 px, float object, int mover, bool isBesideMover, Moved flowed,
+// `mover`: the number of its mover, 0 for none. It has gone about as far as in the last
+// frame.
+Moved measuredAt(uint slot, vec2 px, float object, int mover, bool isBesideMover, Moved flowed,
                  float restError) {
   bool isOnMover = mover != 0;
   bool isFlowKnown = flowed.error < kMaxFlowError;
-  bool isBesideAnother = isOnMover && isNearAnother(px, mover, kBesideAnother);
   vec2 own;
-  bool hasOwn = isOnMover && findMoverMotion(isBesideAnother ? px : px + flowed.displacement, mover, own);
+  bool hasOwn = isOnMover && findMoverMotion(px + anchors[slot].displacement, mover, own);
   if (isOnMover && !hasOwn && isFlowKnown) return flowed;
   bool isResting = !isOnMover && restsWithCamera && object == 0.0;
   if (isResting) return Moved(vec2(0.0), known.w, kSourcePicture | kStraight);
@@ -172,7 +172,7 @@ void main() {
     Moved surfaceMoved = Moved(anchors[slot].displacement, anchors[slot].error, kSourceSurface);
     errorOnSurface = surfaceError(surfaceMoved, isBesideMover, flowed, restError);
   }
-  Moved moved = measuredAt(px, float(thing), mover, isBesideMover, flowed, restError);
+  Moved moved = measuredAt(slot, px, float(thing), mover, isBesideMover, flowed, restError);
   if (hasSurface) {
     // Where both are far apart, the less certain one errs by the difference.
     vec2 displacement = anchors[slot].displacement;

@@ -4,8 +4,9 @@
 //          as the wider one has it, and what that does not, as it was: so a plain coat goes with its
 //          outline, and a leg by itself.
 // Inputs:  normals, normalFlow (mover_edges.comp, mover_registration.comp); earlier: what was found
-//          before, of which earlierScale (its step over this one's) is expected; damping: the weight
-//          of that, in parts of what is seen.
+//          before, of which earlierScale (this step over its) is expected, and less where it was not
+//          clear: fade; damping: in each window, the weight of the wider one's motion, in parts of
+//          what is seen.
 // Outputs: moverMotion RGBA16F: displacement since the previous frame, less the background's (px of
 //          the full image), times weight, and the weight, 0 where the mover is not near; the movers'
 //          blocks are one above the other. The highest mover of busy_blocks.glsl. One invocation per
@@ -18,6 +19,7 @@ uniform highp sampler2D normals;
 uniform highp sampler2D normalFlow;
 uniform highp sampler2D earlier;
 uniform float earlierScale;
+uniform float fade;
 uniform float damping;
 uniform uint turn;  // as in motion_layers_tally.glsl
 
@@ -25,7 +27,7 @@ const float kEnough = 12.0;  // the smaller eigenvalue: some edges of both direc
 const float kLeast = 0.5;    // the sum of both: any edges at all
 const float kClear = 0.1;    // weight of what was found before: no need to look far
 const float kPrior = 0.2;    // weight of the wider window's motion, as of an edge
-const float kFarPrior = 0.1;
+const float kFarPrior = 0.1; // the same in windows that look far
 const int kNearest = 2;      // blocks in which all movers count
 const int kFarthest = 8;     // blocks
 
@@ -57,19 +59,21 @@ int presentAround(ivec2 block, ivec2 size) {
   return present;
 }
 
-// What was found before around a block, above all where both directions were seen; and its weight.
+// What was found before around a block, above all where both directions were seen; and how clear
+// it was in the block itself.
 vec3 earlierAround(ivec2 block, ivec2 size, int row) {
   vec3 sum = vec3(0.0);
-  float all = 0.0;
   for (int i = 0; i < 9; ++i) {
     ivec2 arm = ivec2(i % 3, i / 3) - 1;
     ivec2 at = block + arm;
     if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size))) continue;
     float weight = exp(-0.7 * float(arm.x * arm.x + arm.y * arm.y));
-    all += weight;
     sum += weight * texelFetch(earlier, ivec2(at.x, row + at.y), 0).xyz;
   }
-  return vec3(sum.z > 0.0 ? earlierScale * sum.xy / sum.z : vec2(0.0), sum.z / all);
+  float clear = texelFetch(earlier, ivec2(block.x, row + block.y), 0).z;
+  // What nobody sees going on may have stopped.
+  float scale = earlierScale * mix(fade, 1.0, min(clear, 1.0));
+  return vec3(sum.z > 0.0 ? scale * sum.xy / sum.z : vec2(0.0), clear);
 }
 
 vec4 motionAt(ivec2 block, ivec2 size, int row) {

@@ -1,5 +1,5 @@
-// Purpose: the motion of a mover at a place, from its edges around it.
-// Inputs:  moverMotion (mover_motion.comp); layer_cells.glsl and layer_blocks.glsl before it.
+// Purpose: the motion of a mover at a place, from blocks around it.
+// Inputs:  moverMotion (mover_smooth.comp; its steps read that of mover_motion.comp); layer_cells.glsl and layer_blocks.glsl before it.
 // Outputs: displacement in a frame, less the background's, px of the full image.
 // Precision: highp.
 uniform highp sampler2D moverMotion;
@@ -10,7 +10,7 @@ ivec2 sizeOfMotion() {
   return ivec2(size.x, max(size.y / 3, 1));
 }
 
-// False if the mover with this number, from 1 on, has no edges near.
+// False if the mover with this number, from 1 on, has shown nothing near.
 bool findMoverMotion(vec2 px, int number, out vec2 displacement) {
   vec2 at = px / (kLayerCellPixels * float(kLayerBlock)) - 0.5;
   ivec2 nearest = ivec2(floor(at + 0.5));

@@ -35,7 +35,7 @@ void main() {
   ivec2 block = ivec2(gl_GlobalInvocationID.xy);
   ivec2 size = ivec2(imageSize(moverMotion).x, imageSize(moverMotion).y / 3);
   if (any(greaterThanEqual(block, size))) return;
-  for (int i = 0; i < 3; ++i) {
-    imageStore(moverMotion, ivec2(block.x, i * size.y + block.y), smoothAt(block, size, i * size.y));
+  for (int row = 0; row < imageSize(moverMotion).y; row += size.y) {
+    imageStore(moverMotion, ivec2(block.x, row + block.y), smoothAt(block, size, row));
   }
 }
