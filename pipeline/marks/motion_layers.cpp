@@ -330,6 +330,7 @@ void MotionLayers::State::followMovers(const scene::ArFrame& frame, const Motion
         .texture("lastPicture", pictures.at(before))
         .texture("moverMotion", moverMotion())
         .set("noise", noiseOf(motion))
+        .set("arms", 4)
         .texture("edges", normals.at(from))
         .texture("edgeFlow", normalFlow.at(from))
         .image("normals", normals.at(1 - from), ImageAccess::kWrite)

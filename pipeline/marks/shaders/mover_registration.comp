@@ -24,30 +24,24 @@ uniform highp sampler2D picture;
 uniform highp sampler2D lastPicture;
 uniform highp sampler2D lastShares;
 uniform float noise;
+uniform int arms;  // 4, the places around; a uniform, so that compilers keep the loop over them
 
 const float kArm = 2.0 * kLayerCellPixels;  // px, of central differences
 const vec2 kContrast = vec2(0.03, 0.1);     // over two arms: from no edge to a clear one
 const vec2 kNoisyContrast = vec2(5.0, 15.0);  // the same in deviations of noise, if that is more
 const float kSlope = 0.3;                   // of shares over two arms: an outline
 const float kWithin = 0.95;                 // of a mover's share: surely within it
-const float kBesideAnother = 0.25;          // of another mover's share: the outline may be its
+const float kAnother = 0.25;                // of other movers' shares: the outline may be theirs
 const float kFarthest = 4.0;                // px of displacement in one step
 const float kSilhouette = 0.4;              // weight of a cell of the outline: labels err by a pixel
 const float kColour = 2.0;                  // weight of a clear edge within
 
-// The share of a mover of the four cells around the lower right corner of a cell's place.
-float shareAround(highp sampler2D shares, vec2 px, int number) {
-  return shareOf(textureLod(shares, inLayers(shares, px + 0.5 * kLayerCellPixels), 0.0).rgb, number);
-}
-
-// Whether another mover is within two arms: one of the two hides the other's outline.
-bool isNearAnother(vec2 px, int number) {
-  for (int i = 0; i < 4; ++i) {
-    vec2 arm = (i & 1) == 0 ? vec2(2.0 * kArm, 0.0) : vec2(0.0, 2.0 * kArm);
-    vec3 shares = sharesAt((i & 2) == 0 ? px + arm : px - arm);
-    if (sumOf(shares) - shareOf(shares, number) > kBesideAnother) return true;
-  }
-  return false;
+// The shares of a mover and of all others of the four cells around the lower right corner of a
+// cell's place.
+vec2 sharesAround(highp sampler2D shares, vec2 px, int number) {
+  vec3 all = textureLod(shares, inLayers(shares, px + 0.5 * kLayerCellPixels), 0.0).rgb;
+  float own = shareOf(all, number);
+  return vec2(own, sumOf(all) - own);
 }
 
 vec3 colourAt(highp sampler2D cells, vec2 px) { return textureLod(cells, inLayers(cells, px), 0.0).rgb; }
@@ -58,38 +52,40 @@ struct Sum {
 };
 
 // `along`: the displacement along the gradient that is left.
-void add(inout Sum sum, vec2 gradient, float along, vec2 displacement, float weight) {
+void add(inout Sum sum, vec2 gradient, float along, float weight) {
   float len = length(gradient);
   vec2 n = gradient / len;
   weight /= 1.0 + 0.1 * along * along;  // what is far off is something else
   sum.matrix += weight * vec3(n.x * n.x, n.x * n.y, n.y * n.y);
-  sum.moved += weight * (dot(n, displacement) + clamp(along, -kFarthest, kFarthest)) * n;
+  sum.moved += weight * clamp(along, -kFarthest, kFarthest) * n;
 }
 
-// Whether an outline like that at px, with the mover on the side of `inwards`, was near `back`.
-bool hadOutline(vec2 back, vec2 inwards, int number) {
-  vec2 reach = (kArm + kFarthest) * inwards;
-  return shareAround(lastShares, back + reach, number) > 0.5 &&
-         shareAround(lastShares, back - reach, number) < 0.5;
+// Whether the mover was where its inside was, from an outline near `back`.
+bool wasThere(vec2 back, vec2 inwards, int number) {
+  return sharesAround(lastShares, back + (kArm + kFarthest) * inwards, number).x > 0.5;
 }
 
 void addCell(inout Sum sum, vec2 px, int number, vec2 displacement) {
   vec2 back = px - backgroundShift(px) - displacement;
   if (!isInPicture(back - 2.0 * kArm) || !isInPicture(back + 2.0 * kArm)) return;
   if (!isInPicture(px - 2.0 * kArm) || !isInPicture(px + 2.0 * kArm)) return;
-  vec4 shares = vec4(shareAround(moverShares, px + vec2(kArm, 0.0), number),
-                     shareAround(moverShares, px - vec2(kArm, 0.0), number),
-                     shareAround(moverShares, px + vec2(0.0, kArm), number),
-                     shareAround(moverShares, px - vec2(0.0, kArm), number));
-  float least = min(min(shares.x, shares.y), min(shares.z, shares.w));
-  float own = shareAround(moverShares, px, number);
-  float was = shareAround(lastShares, back, number);
-  vec2 slope = vec2(shares.x - shares.y, shares.z - shares.w);
+  vec2 slope = vec2(0.0);
+  float least = 1.0;
+  float another = 0.0;
+  for (int i = 0; i < arms; ++i) {
+    vec2 side = (i < 2 ? vec2(1.0, 0.0) : vec2(0.0, 1.0)) * float(1 - 2 * (i & 1));
+    vec2 there = sharesAround(moverShares, px + kArm * side, number);
+    slope += there.x * side;
+    least = min(least, there.x);
+    another = max(another, there.y);
+  }
+  float own = sharesAround(moverShares, px, number).x;
+  float was = sharesAround(lastShares, back, number).x;
   // Beyond the outline's ramp, both are the same wherever it is.
   bool isOnRamp = min(own, was) < kWithin && max(own, was) > 1.0 - kWithin;
-  if (length(slope) > kSlope && isOnRamp && !isNearAnother(px, number) &&
-      hadOutline(back, normalize(slope), number)) {
-    add(sum, slope, 2.0 * kArm * (was - own) / length(slope), displacement, kSilhouette);
+  if (length(slope) > kSlope && isOnRamp && another < kAnother &&
+      wasThere(back, normalize(slope), number)) {
+    add(sum, slope, 2.0 * kArm * (was - own) / length(slope), kSilhouette);
   }
   if (min(least, min(own, was)) < kWithin) return;
   vec3 right = colourAt(picture, px + vec2(kArm, 0.0)) - colourAt(picture, px - vec2(kArm, 0.0));
@@ -100,7 +96,7 @@ void addCell(inout Sum sum, vec2 px, int number, vec2 displacement) {
     vec2 gradient = vec2(right[c], down[c]);
     float weight = kColour / 3.0 * smoothstep(contrast.x, contrast.y, length(gradient));
     if (weight <= 0.0) continue;
-    add(sum, gradient, 2.0 * kArm * change[c] / length(gradient), displacement, weight);
+    add(sum, gradient, 2.0 * kArm * change[c] / length(gradient), weight);
   }
 }
 
@@ -123,7 +119,9 @@ void main() {
       vec2 cell = vec2(first + ivec2(i % size.x, i / size.x)) + 0.5;
       addCell(sum, cell * kLayerCellPixels, number, displacement);
     }
+    vec2 moved = sum.moved;
+    if (isHere) moved += mat2(sum.matrix.xy, sum.matrix.yz) * displacement;
     imageStore(normals, at, vec4(sum.matrix, cells));
-    imageStore(normalFlow, at, vec4(sum.moved, number == 1 ? float(present) : 0.0, 0.0));
+    imageStore(normalFlow, at, vec4(moved, number == 1 ? float(present) : 0.0, 0.0));
   }
 }
