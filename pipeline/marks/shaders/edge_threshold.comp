@@ -1,4 +1,5 @@
-// Purpose: the threshold of a strong edge in this frame: a third of the 99.5th percentile of P,
+// Purpose: the threshold of a strong edge of the background in this frame, by which those of movers
+//          and models are judged, too: a third of the 99.5th percentile of P,
 //          smoothed in time (the thesis takes a third of the maximum, which one bright object or
 //          hot pixel changes).
 //          A frame without any counted pixel leaves it as it is.
