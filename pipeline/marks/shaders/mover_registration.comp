@@ -33,7 +33,7 @@ const float kSlope = 0.3;                   // of shares over two arms: an outli
 const float kWithin = 0.95;                 // of a mover's share: surely within it
 const float kAnother = 0.25;                // of other movers' shares: the outline may be theirs
 const float kFarthest = 4.0;                // px of displacement in one step
-const float kSilhouette = 0.4;              // weight of a cell of the outline: labels err by a pixel
+const float kSilhouette = 0.15;             // weight of a cell of the outline: labels err by a pixel
 const float kColour = 2.0;                  // weight of a clear edge within
 
 // The shares of a mover and of all others of the four cells around the lower right corner of a
