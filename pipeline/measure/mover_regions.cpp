@@ -122,7 +122,7 @@ void SuddenChangeRegion::add(const MoverFrame& frame) {
 
 std::optional<double> SuddenChangeRegion::follow() const {
   if (whole_.weight < kNoticeablePart * static_cast<double>(changes_.size())) return std::nullopt;
-  // Of a painting that has not changed within a second.
+  // A painting that has not changed within a second follows nothing.
   if (whole_.value().value_or(0) == 0) return 1.0;
   return ratio(apart_.value(), whole_.value());
 }

@@ -60,7 +60,7 @@ class SuddenChangeRegion {
     cv::Vec3b before;  // the smoothed painting
     std::optional<cv::Vec3b> soonAfter;
   };
-  // Of the previous frame: its input over 3×3 pixels, its painting smoothed.
+  // The previous frame: its input over 3×3 pixels, its painting smoothed.
   cv::Mat3b mean_, output_;
   cv::Mat1b far_;
   std::vector<std::optional<Change>> changes_;

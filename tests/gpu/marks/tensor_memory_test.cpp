@@ -252,7 +252,7 @@ TEST_F(TensorsBehindAMover, WithoutLayersTheyTurnToTheMovers) {
   }
 }
 
-/// What is a strong edge is judged among those of the background: a mover's are the strongest here.
+/// The threshold of a strong edge is the background's: the mover has the strongest edges here.
 TEST_F(TensorsBehindAMover, EdgesElsewhereAreAsStrongAsBefore) {
   const auto detailBeside = [&] {
     double sum = 0.0;

@@ -357,6 +357,11 @@ TEST_F(MoverMeasuresLamp, APaintingThatComesHalfWayIn300MsDoesNot) {
   EXPECT_EQ(report.painting.stillPercent.value(), 0.0) << "within a second";
 }
 
+TEST_F(MoverMeasuresLamp, APaintingThatNeverChangesFollowsNothing) {
+  const MoverReport report = reportOf([](int) { return lit(0, 1.0); });
+  EXPECT_EQ(report.painting.follow.value(), 1.0);
+}
+
 TEST_F(MoverMeasuresLamp, WhatChangesASecondLaterDoesNotStandStill) {
   const auto stillOf = [](int frames) {
     const auto paint = [frames](int frame) {
