@@ -105,8 +105,8 @@ void wholeChain(benchmark::State& state, const char* style, std::size_t quality 
 }
 
 /// Each pass by itself, GPU waited for before and after: medians, ms.
-void stages(benchmark::State& state) {
-  Chain chain(sizeOf(state), "watercolor", 0, gpu::PassTiming::kFences);
+void stages(benchmark::State& state, std::size_t quality) {
+  Chain chain(sizeOf(state), "watercolor", quality, gpu::PassTiming::kFences);
   std::map<std::string, std::vector<double>> ms;
   std::map<std::string, std::chrono::nanoseconds> before;
   for (const gpu::PassTime& each : chain.painter().passTimes()) before[each.pass] = each.total;
@@ -176,7 +176,9 @@ BENCHMARK(sampledPassTimes)
     ->Iterations(1)
     ->Unit(benchmark::kSecond);
 
-BENCHMARK(stages)->Name("chain/watercolor, pass by pass")->Apply(atBothSizes);
+BENCHMARK_CAPTURE(stages, full, std::size_t{0})
+    ->Name("chain/watercolor, pass by pass")
+    ->Apply(atBothSizes);
 
 /// Each level below the full one, under its name.
 void levels(benchmark::State& state, std::size_t quality) {
@@ -193,6 +195,13 @@ const bool kLevelsAreRegistered = [] {
         ->MeasureProcessCPUTime()
         ->MinTime(2.0);
   }
+  benchmark::RegisterBenchmark(
+      ("chain/watercolor/" + all.back().name + ", pass by pass").c_str(),
+      [last = all.size() - 1](benchmark::State& state) { stages(state, last); })
+      ->Args({640, 480})
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime()
+      ->MinTime(2.0);
   return true;
 }();
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <random>
+#include <string>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -25,16 +27,17 @@ using namespace pleinair;         // NOLINT(google-build-using-namespace): a pro
 using namespace pleinair::bench;  // NOLINT(google-build-using-namespace)
 
 constexpr int kFrames = 8;
+constexpr double kPace = 2.0;  // px a frame, of a picture 480 px high
 
 /// A moving scene with flat parts, texture, edges and sensor noise, RGBA8.
-std::vector<std::uint8_t> framePixels(hal::FrameSize size, int number) {
+std::vector<std::uint8_t> framePixels(hal::FrameSize size, int number, double pace = kPace) {
   std::vector<std::uint8_t> pixels(static_cast<std::size_t>(size.pixels()) * 4, 255);
   std::mt19937 random(static_cast<unsigned>(number));
   const double scale = size.height / 480.0;
   std::size_t at = 0;
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x, at += 4) {
-      const double u = x / scale + number * 2.0;
+      const double u = x / scale + number * pace;
       const double v = y / scale;
       const bool disc = std::hypot(std::fmod(u, 160.0) - 80.0, std::fmod(v, 160.0) - 80.0) < 45.0;
       const double wave = 30.0 * std::sin(u * 0.05) * std::sin(v * 0.07);
@@ -51,7 +54,8 @@ std::vector<std::uint8_t> framePixels(hal::FrameSize size, int number) {
 
 /// A context, the style, and a few frames already on the GPU.
 struct Bench {
-  explicit Bench(hal::FrameSize size, gpu::PassTiming timing) : timer(timing, &context.info()) {
+  Bench(hal::FrameSize size, gpu::PassTiming timing, bool standing = false)
+      : timer(timing, &context.info()), pace(standing ? 0.0 : kPace) {
     library.add(gpu::gpuShaders());
     library.add(gpu::sceneShaders());
     library.add(gpu::marksShaders());
@@ -59,7 +63,7 @@ struct Bench {
     style = styles::makeStyle("watercolor", library);
     for (int i = 0; i < kFrames; ++i) {
       frames.emplace_back(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear);
-      frames.back().upload(framePixels(size, i), static_cast<std::size_t>(size.width) * 4);
+      frames.back().upload(framePixels(size, i, pace), static_cast<std::size_t>(size.width) * 4);
     }
     ids = gpu::Texture(gpu::TextureFormat::kR32ui, size);
     std::vector<std::uint32_t> idPixels(static_cast<std::size_t>(size.pixels()), 0);
@@ -77,13 +81,22 @@ struct Bench {
   }
 
   void paint() {
-    const scene::ArFrame frame{.colour = &frames[static_cast<std::size_t>(number % kFrames)],
-                               .ids = &ids,
-                               .barycentrics = &barycentrics,
-                               .forms = &barycentrics,
-                               .hasObjects = hasObjects,
-                               .sequence = static_cast<std::uint64_t>(number),
-                               .captureTime = timeOfFrame(static_cast<std::uint64_t>(number))};
+    // The film begins again after its last frame.
+    const int step = number % kFrames == 0 && number > 0 ? 1 - kFrames : 1;
+    const hal::FrameSize size = frames.front().size();
+    motion.frameSize = size;
+    motion.sinceSequence = static_cast<std::uint64_t>(std::max(number - 1, 0));
+    motion.noiseLevels = 2.6;
+    motion.picture = tracking::ImageHomography{.errorPx = 0.05};
+    motion.picture->currentFromPrevious[2][0] = -pace * step * size.height / 480.0;
+    scene::ArFrame frame{.colour = &frames[static_cast<std::size_t>(number % kFrames)],
+                         .ids = &ids,
+                         .barycentrics = &barycentrics,
+                         .forms = &barycentrics,
+                         .hasObjects = hasObjects,
+                         .sequence = static_cast<std::uint64_t>(number),
+                         .captureTime = timeOfFrame(static_cast<std::uint64_t>(number))};
+    frame.measuredMotion = scene::MeasuredMotion{.motion = &motion};
     ++number;
     style->paint(frame, "");
   }
@@ -96,7 +109,9 @@ struct Bench {
   gpu::Texture ids;
   gpu::Texture barycentrics;
   bool hasObjects = false;
+  double pace;
   int number = 0;
+  tracking::ImageMotion motion;
 };
 
 void wholeStyle(benchmark::State& state, bool hasObjects) {
@@ -110,6 +125,23 @@ void wholeStyle(benchmark::State& state, bool hasObjects) {
     times.push_back(millisecondsSince(start));
   }
   state.counters["median_ms"] = medianOf(times);
+}
+
+/// Each pass by itself, before a camera that stands: medians, ms.
+void allPasses(benchmark::State& state) {
+  Bench bench(sizeOf(state), gpu::PassTiming::kFences, true);
+  std::map<std::string, std::vector<double>> ms;
+  std::map<std::string, std::chrono::nanoseconds> before;
+  for ([[maybe_unused]] auto _ : state) {
+    bench.timer.beginFrame();
+    bench.paint();
+    for (const gpu::PassTime& each : bench.timer.times()) {
+      ms[each.pass].push_back(
+          std::chrono::duration<double, std::milli>(each.total - before[each.pass]).count());
+      before[each.pass] = each.total;
+    }
+  }
+  for (auto& [pass, times] : ms) state.counters[pass] = medianOf(times);
 }
 
 void onePass(benchmark::State& state, const char* pass) {
@@ -144,6 +176,7 @@ BENCHMARK_CAPTURE(wholeStyle, camera, false)->Name("watercolor/whole")->Apply(at
 BENCHMARK_CAPTURE(wholeStyle, objects, true)
     ->Name("watercolor/whole with objects")
     ->Apply(atBothSizes);
+BENCHMARK(allPasses)->Name("watercolor/standing, pass by pass")->Apply(atBothSizes);
 BENCHMARK(openCvStylization)->Name("opencv/stylization")->Apply(atBothSizes);
 BENCHMARK_CAPTURE(onePass, tile, "watercolor: tile")
     ->Name("watercolor/tile")

@@ -1,6 +1,7 @@
 #include "pipeline/styles/watercolor/cell_tiling.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <chrono>
 #include <cmath>
@@ -38,6 +39,16 @@ float shareOf(hal::Duration step, double timeConstantSeconds) {
   return static_cast<float>(1.0 - std::exp(-seconds / timeConstantSeconds));
 }
 
+/// glDispatchComputeIndirect's command.
+using Groups = std::array<std::uint32_t, 3>;
+
+/// Those of a picture's blocks, in no layer yet.
+Groups groupsOf(const gpu::Program& program, hal::FrameSize size) {
+  const glm::ivec2 groups =
+      (gpu::pixelBlocksOf(size) + program.groupSize() - 1) / program.groupSize();
+  return {static_cast<std::uint32_t>(groups.x), static_cast<std::uint32_t>(groups.y), 0};
+}
+
 gpu::Buffer zeros(std::size_t bytes) {
   const std::vector<std::byte> empty(bytes);
   return gpu::Buffer::of(std::span<const std::byte>(empty), gpu::BufferUsage::kDynamic);
@@ -54,7 +65,8 @@ CellTiling::CellTiling(const gpu::ShaderLibrary& library)
     : place_(library.compute(kShaders + "seeds.comp")),
       nearest_(library.compute(kShaders + "tile.comp")),
       move_(library.compute(kShaders + "cells.comp")),
-      bins_(library) {}
+      bins_(library),
+      moverGroups_(zeros(sizeof(Groups))) {}
 
 void CellTiling::allocate(hal::FrameSize full, int cellSizePixels, std::uint32_t slots) {
   assert(slots <= 1U << 22U);  // tiling_word.glsl
@@ -90,12 +102,17 @@ void CellTiling::placeSeeds(const TilingFrame& input, const marks::AnchorSet& an
   const scene::ArFrame& frame = *input.frame;
   const glm::vec2 pixelsOfFull(frame.pixelsOfFull());
   const float growth = kGrowthCells * static_cast<float>(cellSize_) * pixelsOfFull.x;
+  const Groups groups = groupsOf(nearest_, frame.size());
+  moverGroups_.write(std::as_bytes(std::span(groups)));
   place_.use()
       .storage("Anchors", anchors.anchors())
       .storage("Seeds", seeds_)
       .storage("Points", points_)
+      .storage("MoverGroups", moverGroups_)
       .texture("tilingThen", input.tilingThen != nullptr ? *input.tilingThen : *input.tiling)
       .set("hasThen", input.tilingThen != nullptr ? 1 : 0)
+      .texture("movers", layerTextures_.labelsOf(input.movers))
+      .set("hasMovers", input.movers != nullptr ? 1 : 0)
       .set("slots", static_cast<int>(slots_))
       .set("carries", carries ? 1 : 0)
       .set("beginsAnew", anchors.hasBegunAnew() ? 1 : 0)
@@ -103,7 +120,8 @@ void CellTiling::placeSeeds(const TilingFrame& input, const marks::AnchorSet& an
       .set("pixelsOfFull", pixelsOfFull)
       .set("reach", kReachCells * static_cast<float>(cellSize_))
       .set("growth", growth * growth)
-      .dispatch({static_cast<int>(slots_), 1}, GL_SHADER_STORAGE_BARRIER_BIT);
+      .dispatch({static_cast<int>(slots_), 1},
+                GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
   bins_.sort(points_, frame.size());
 }
 
@@ -114,17 +132,22 @@ void CellTiling::findCells(const TilingFrame& input, const WatercolorParameters&
       .storage("Starts", bins_.starts())
       .storage("Sums", sums_)
       .storage("Sorted", bins_.sorted())
+      .storage("MoverGroups", moverGroups_)
       .image("tiling", *input.tiling, ImageAccess::kWrite)
       .texture("picture", *input.picture)
       .texture("ids", frame.hasObjects ? *frame.ids : *input.tiling)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .texture("movers", layerTextures_.labelsOf(input.movers))
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .set("bins", bins_.bins())
       .set("binPixels", bins_.binPixels(size))
       .set("alpha", static_cast<float>(p.edgeAlpha))
       .set("beta", static_cast<float>(p.edgeBeta))
       .set("threshold", static_cast<float>(p.edgeThreshold))
       .set("wantsMeans", input.wantsMeans ? 1 : 0)
+      .set("side", 0)
       .dispatch(gpu::pixelBlocksOf(size), kWritten);
+  if (input.movers != nullptr) nearest_.set("side", 1).dispatchIndirect(moverGroups_, 0, kWritten);
 }
 
 /// `atOnce`: all the way, whatever the time constants.

@@ -12,6 +12,7 @@
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/layer_textures.h"
 #include "pipeline/marks/point_bins.h"
 #include "pipeline/styles/watercolor/watercolor_parameters.h"
 
@@ -28,6 +29,7 @@ struct CellSeed {
   static constexpr std::uint32_t kMoving = 1;
   static constexpr std::uint32_t kBorn = 2;
   static constexpr std::uint32_t kLiving = 4;
+  static constexpr std::uint32_t kHeld = 8;
 
   bool isMoving() const { return (state & kMoving) != 0; }
   bool isLiving() const { return (state & kLiving) != 0; }
@@ -37,17 +39,19 @@ static_assert(sizeof(CellSeed) == 32);
 /// The inputs of a frame's tiling, and its output.
 struct TilingFrame {
   const scene::ArFrame* frame = nullptr;
-  const gpu::Texture* picture = nullptr;     ///< that edges and colours are taken from
-  const gpu::Texture* tilingThen = nullptr;  ///< of the previous frame; null where there is none
-  const gpu::Texture* tiling = nullptr;      ///< to be written: R32UI, shaders/tiling_word.glsl
-  hal::Duration step{0};                     ///< since the previous frame
+  const gpu::Texture* picture = nullptr;        ///< that edges and colours are taken from
+  const marks::MotionLayers* movers = nullptr;  ///< null: movers are not told apart
+  const gpu::Texture* tilingThen = nullptr;     ///< of the previous frame; null where there is none
+  const gpu::Texture* tiling = nullptr;         ///< to be written: R32UI, shaders/tiling_word.glsl
+  hal::Duration step{0};                        ///< since the previous frame
   bool wantsMeans = false;
 };
 
 /// The Voronoi cells of seeds that belong to anchors (thesis §3.2, and on): a seed is carried with
 /// its anchor, drawn to the edges in its cell or to the cell's middle, and rests until it has
 /// reason to move for a while. Cells whose anchors fade in or out grow and shrink (a power
-/// diagram). All on the GPU. All calls on the thread of the GL context it was made in.
+/// diagram). Movers have cells of their own; those behind and beside them wait for them to pass.
+/// All on the GPU. All calls on the thread of the GL context it was made in.
 class CellTiling {
  public:
   /// `library` has gpu::watercolorShaders(), marksShaders(), sceneShaders().
@@ -82,6 +86,8 @@ class CellTiling {
   gpu::Program nearest_;
   gpu::Program move_;
   marks::PointBins bins_;
+  marks::LayerTextures layerTextures_;
+  gpu::Buffer moverGroups_;  ///< shaders/seeds.comp
   hal::FrameSize full_;
   int cellSize_ = 1;
   std::uint32_t slots_ = 0;

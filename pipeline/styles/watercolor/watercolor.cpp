@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -90,7 +89,8 @@ marks::AnchorOptions anchorOptions(const WatercolorParameters& p) {
 
 struct Watercolor::Passes {
   explicit Passes(const gpu::ShaderLibrary& library)
-      : filtered(library),
+      : hiding(library),
+        filtered(library),
         tiler(library),
         gliding(library.fragmentPass(kShaders + "gliding.frag")),
         guide(library.fragmentPass(kShaders + "guide.frag", {}, {TextureFormat::kRgba8})),
@@ -107,6 +107,7 @@ struct Watercolor::Passes {
         substrate(library, Substrate::Kind::kPaper),
         paletteTaps(gpu::Buffer::of(std::span<const glm::vec4>(kPaletteTaps))) {}
 
+  scene::ModelHiding hiding;
   marks::FilteredFrame filtered;
   CellTiling tiler;
   gpu::Program gliding;
@@ -126,18 +127,15 @@ struct Watercolor::Passes {
 /// The state that belongs to one full size.
 struct Watercolor::Marks {
   Marks(const gpu::ShaderLibrary& library, hal::FrameSize fullSize)
-      : full(fullSize), field(library, full), gliding(field.backward().size()) {}
+      : full(fullSize),
+        field(library, full),
+        movers(library, full),
+        gliding(field.backward().size()) {}
 
   hal::FrameSize full;
   marks::MotionField field;
+  marks::MotionLayers movers;
   WatercolorGliding gliding;
-  struct Movers {
-    Movers(const gpu::ShaderLibrary& library, hal::FrameSize full)
-        : layers(library, full), hiding(library) {}
-    marks::MotionLayers layers;
-    scene::ModelHiding hiding;
-  };
-  std::optional<Movers> movers;               // where there are models: to hide these
   std::unique_ptr<marks::AnchorSet> anchors;  // of one cell size and seed
   std::unique_ptr<WatercolorCells> cells;
   int cellSize = 0;
@@ -179,7 +177,7 @@ void Watercolor::reset() {
   passes_->filtered.reset();
   if (marks_ == nullptr) return;
   marks_->field.reset();
-  if (marks_->movers) marks_->movers->layers.reset();
+  marks_->movers.reset();
   if (marks_->anchors != nullptr) marks_->anchors->reset();
 }
 
@@ -207,8 +205,8 @@ const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view v
   takeCanvas(frame);
   step_ = hasPast_ ? marks::timeStep(lastTime_, frame.captureTime) : hal::Duration(0);
   marks_->field.update(frame);
-  hideModels(frame);
-  marks_->anchors->advance(frame, marks_->field);
+  findMovers(frame);
+  marks_->anchors->advance(frame, marks_->field, {}, movers());
   filtered(frame);
   tile(frame, p_.mosaic > 0.0 || view == kMeansView);
   findGliding();
@@ -224,25 +222,20 @@ const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view v
   return canvas_->picture;
 }
 
-/// Where movers are before them. Movers are looked for in every frame of a scene with models, since
-/// the tag under a hand is lost first; only there are their programs made.
-void Watercolor::hideModels(const scene::ArFrame& frame) {
-  std::optional<Marks::Movers>& movers = marks_->movers;
-  const bool hasModels = frame.surfaces && frame.surfaces->posed != nullptr;
-  if (!p_.movers || !hasModels) {
-    if (movers) movers->layers.reset();
+/// Tells movers apart, and hides the models that they are before.
+void Watercolor::findMovers(const scene::ArFrame& frame) {
+  marks::MotionLayers& movers = marks_->movers;
+  if (!p_.movers) {
+    movers.reset();
     return;
   }
-  if (!movers) {
-    movers.emplace(*library_, marks_->full);
-    movers->hiding.warmUp();
-    scene::ArFrame first = frame;  // runs all programs once
-    first.hasObjects = true;
-    movers->layers.update(first, marks_->field);
-    movers->layers.reset();
-  }
-  movers->layers.update(frame, marks_->field);
-  if (const Texture* const front = movers->layers.front()) movers->hiding.hide(frame, *front);
+  movers.update(frame, marks_->field);
+  if (const Texture* const front = movers.front()) passes_->hiding.hide(frame, *front);
+}
+
+/// Null where movers are not told apart.
+const marks::MotionLayers* Watercolor::movers() const {
+  return marks_ != nullptr && p_.movers ? &marks_->movers : nullptr;
 }
 
 /// Anchors and cells for this frame's full size, and the parameters that they are made by.
@@ -291,6 +284,7 @@ void Watercolor::tile(const scene::ArFrame& frame, bool wantsMeans) {
   passes_->tiler.tile(
       {.frame = &frame,
        .picture = picture_,
+       .movers = movers(),
        .tilingThen = previousCanvas_ != nullptr ? &previousCanvas_->tiling : nullptr,
        .tiling = &canvas_->tiling,
        .step = step_,
@@ -444,6 +438,7 @@ void Watercolor::warmUp() {
          .hasObjects = true,
          .sequence = 3},
         "");
+  passes_->hiding.warmUp();
   canvas_ = previousCanvas_ = nullptr;
   canvases_.clear();
   marks_.reset();

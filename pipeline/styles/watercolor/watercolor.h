@@ -25,6 +25,9 @@ const StyleKind& watercolorKind();
 /// The substrate, with all that is uneven about the paint, goes with ArFrame::canvasFromPicture. An
 /// object's silhouette (ids) counts as an edge.
 ///
+/// Movers (marks::MotionLayers) have cells of their own; those of the background stay as they are
+/// until they are seen again. Models are hidden by movers before them.
+///
 /// Time: edges and colours are taken from a picture that is averaged along its motion
 /// (marks::FilteredFrame), and colours of cells once more, so that a still scene is a still
 /// painting: sensor noise moves no seed, and newborn cells begin with the colours of those they
@@ -50,6 +53,7 @@ class Watercolor final : public Style {
   const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view) override;
   const marks::AnchorSet* anchors() const override;
   std::vector<marks::Anchor> readAnchors() const override;
+  const marks::MotionLayers* movers() const override;
   void reset() override;
 
   /// Results of the last frame's passes, on the GPU, for measures and tests.
@@ -69,7 +73,7 @@ class Watercolor final : public Style {
 
   void takeMarks(const scene::ArFrame& frame);
   void takeCanvas(const scene::ArFrame& frame);
-  void hideModels(const scene::ArFrame& frame);
+  void findMovers(const scene::ArFrame& frame);
   void filtered(const scene::ArFrame& frame);
   void tile(const scene::ArFrame& frame, bool wantsMeans);
   void findGliding();

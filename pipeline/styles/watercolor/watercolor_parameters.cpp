@@ -61,8 +61,10 @@ const config::ParameterTable<WatercolorParameters>& watercolorParameters() {
           "along its motion; 0 takes each frame as it is."),
       numberParameter("colour_time", &P::colourTimeSeconds, {.min = 0, .max = 5, .unit = "s"},
                       "Time constant of a cell's colours; 0 takes each frame's."),
-      switchParameter("movers", &P::movers,
-                      "Whether what moves by itself before a model hides it."),
+      switchParameter(
+          "movers", &P::movers,
+          "Whether what moves by itself has cells of its own, leaves those behind it as they "
+          "are, and hides models that it is before."),
   };
   return table;
 }

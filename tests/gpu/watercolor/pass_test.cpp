@@ -29,6 +29,7 @@ WatercolorParameters thesisParameters() {
   p.retileRest = 0.0;
   p.filterTimeSeconds = 0.0;
   p.colourTimeSeconds = 0.0;
+  p.movers = false;
   return p;
 }
 

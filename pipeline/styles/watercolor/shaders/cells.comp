@@ -1,7 +1,8 @@
 // Purpose: each seed's next place: the mean of its cell's edge pixels if there are enough (thesis
 //          §3.2.3), else the centroid of its cell, which spaces seeds evenly (Lloyd, "Least squares
 //          quantization in PCM", 1982). A seed rests exactly until that place has been far away for
-//          a while, so that noise moves no seed. Also each cell's exact mean colour (§3.2.1).
+//          a while, so that noise moves no seed; while it is held (seeds.comp), it rests. Also each
+//          cell's exact mean colour (§3.2.1).
 // Inputs:  sums (cell_sums.glsl; cleared here for the next frame), points (seeds.comp), slots,
 //          pixelsOfFull, minEdgePixels; follow and drift: the parts in [0, 1] of the way to the
 //          edge and to the centroid; reach: as in seeds.comp; rest: px of the full image within
@@ -76,7 +77,9 @@ void main() {
     imageStore(means, texelOf(uint(slot)), mean);
   }
   ivec4 point = points[slot];
-  if (point.w >= 0 && count > 0u) {
+  bool isHeld = (seeds[slot].state & kHeldSeed) != 0u;
+  if (isHeld) seeds[slot].restless = 0.0;
+  if (point.w >= 0 && count > 0u && !isHeld) {
     Seed seed = seeds[slot];
     uint edges = sums[base + 6];
     float pull = pullOf(edges);

@@ -14,3 +14,4 @@ struct Seed {
 const uint kMoving = 1u;
 const uint kBornSeed = 2u;  // spawned in this frame
 const uint kLiving = 4u;
+const uint kHeldSeed = 8u;  // stays on its anchor: a mover is before its cell, or beside it

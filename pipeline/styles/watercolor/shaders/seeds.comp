@@ -3,18 +3,22 @@
 //          hasThen: the previous frame's tiling; slots; carries: whether the anchors have moved
 //          since the last time; beginsAnew: all seeds are new; full: the full image's size in px;
 //          pixelsOfFull; reach: the largest distance of a seed from its anchor, px of the full
-//          image; growth: the penalty of an anchor that has not faded in, px² of this image.
-// Outputs: seeds; points (marks/point.glsl).
+//          image; growth: the penalty of an anchor that has not faded in, px² of this image;
+//          mover_labels.glsl's if hasMovers.
+// Outputs: seeds; points (seed_point.glsl); moverGroups: of tile.comp's dispatch for movers: the last
+//          of its three numbers is set to 1 if there is a seed of one.
 // Precision: points are rounded to their lattice.
 #include "pipeline/marks/shaders/anchor.glsl"
-#include "pipeline/marks/shaders/point.glsl"
+#include "pipeline/marks/shaders/mover_labels.glsl"
 #include "pipeline/styles/watercolor/shaders/seed.glsl"
+#include "pipeline/styles/watercolor/shaders/seed_point.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
 // volatile: docs/gpu.md, rule 22
 layout(std430, binding = 1) volatile buffer Seeds { Seed seeds[]; };
 layout(std430, binding = 2) volatile writeonly buffer Points { ivec4 points[]; };
+layout(std430, binding = 3) volatile writeonly buffer MoverGroups { uint moverGroups[]; };
 uniform highp usampler2D tilingThen;
 uniform bool hasThen;
 uniform int slots;
@@ -24,6 +28,7 @@ uniform vec2 full;
 uniform vec2 pixelsOfFull;
 uniform float reach;
 uniform float growth;
+uniform bool hasMovers;
 
 const float kFarAway = 16384.0;  // px; keeps the lattice within integers
 
@@ -46,6 +51,13 @@ Seed carried(Seed seed, Anchor anchor) {
   return seed;
 }
 
+// What a mover leaves of a cell says nothing about where its seed belongs. Where the mover has passed,
+// the cells are the same again.
+bool isHeld(Anchor anchor) {
+  if (!hasMovers || (anchor.state & kMover) != 0u) return false;
+  return (anchor.state & kCovered) != 0u || nearestMover(anchor.px, 1.5 * reach) > 0.1;
+}
+
 void store(int slot, ivec4 point) {
   points[slot].xy = point.xy;
   points[slot].zw = point.zw;
@@ -64,6 +76,7 @@ void main() {
   if (carries) {
     bool isNew = beginsAnew || (anchor.state & kBorn) != 0u || (seed.state & kLiving) == 0u;
     seed = isNew ? born(anchor) : carried(seed, anchor);
+    seed.state = (seed.state & ~kHeldSeed) | (isHeld(anchor) ? kHeldSeed : 0u);
     seeds[slot].offset = seed.offset;
     seeds[slot].restless = seed.restless;
     seeds[slot].state = seed.state;
@@ -71,5 +84,7 @@ void main() {
   }
   vec2 at = clamp((anchor.px + seed.offset) * pixelsOfFull, vec2(-kFarAway), vec2(kFarAway));
   float penalty = (1.0 - clamp(anchor.fade, 0.0, 1.0)) * growth;
-  store(slot, pointAt(at, penalty, slot));
+  bool isOnMover = hasMovers && (anchor.state & kMover) != 0u;
+  if (isOnMover) moverGroups[2] = 1u;
+  store(slot, seedPoint(at, penalty, slot, isOnMover));
 }

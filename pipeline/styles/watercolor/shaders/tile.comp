@@ -1,10 +1,11 @@
 // Purpose: for each pixel the nearest seed (thesis §3.2.1; a seed that is fading in has a smaller
 //          cell: a power diagram) and the edge strength (eq. 2-4), and for each cell the sums for
-//          its mean colour and its next tiling. One invocation does a block of 4x4 pixels and adds
-//          once per cell in the block.
+//          its mean colour and its next tiling. Movers have cells of their own: all else is painted
+//          first, then they. One invocation does a block of 4x4 pixels and adds once per cell in the
+//          block.
 // Inputs:  picture (sRGB-coded), ids (R32UI) if hasObjects; sorted, starts, bins, binPixels: the
-//          seeds (marks/point_bins.h); alpha, beta, threshold; wantsMeans: whether colours are
-//          summed, too.
+//          seeds (seed_point.glsl, marks/point_bins.h); moverGroups (seeds.comp), mover_labels.glsl's and
+//          pixelsOfFull; side: 1 for movers, 0 for all else; alpha, beta, threshold; wantsMeans: whether colours are summed, too.
 // Outputs: tiling (R32UI, tiling_word.glsl), sums (cell_sums.glsl).
 // Precision: integers for distances and sums, so that order does not matter; of equally near seeds
 //          the first in `sorted` wins. Distances of more than about 100 px (fewer, where seeds are
@@ -12,14 +13,17 @@
 #include "pipeline/gpu/shaders/colour.glsl"
 #include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/gpu/shaders/pixel_block.glsl"
+#include "pipeline/marks/shaders/mover_labels.glsl"
 #include "pipeline/marks/shaders/point_bins.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/styles/watercolor/shaders/cell_sums.glsl"
+#include "pipeline/styles/watercolor/shaders/seed_point.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 layout(local_size_x = 16, local_size_y = 4) in;
 layout(std430, binding = 0) readonly buffer Starts { uint starts[]; };
 layout(std430, binding = 1) buffer Sums { uint sums[]; };
 layout(std430, binding = 2) readonly buffer Sorted { ivec4 sorted[]; };
+layout(std430, binding = 3) readonly buffer MoverGroups { uint moverGroups[]; };
 layout(binding = 0, r32ui) writeonly uniform highp uimage2D tiling;
 uniform sampler2D picture;
 uniform highp usampler2D ids;
@@ -28,6 +32,8 @@ uniform float alpha;
 uniform float beta;
 uniform float threshold;
 uniform bool wantsMeans;
+uniform int side;
+uniform vec2 pixelsOfFull;
 
 const int kStrip = 2;  // columns
 const float kHalfDiagonal = 2.1213204;  // between the block's middle and its corner pixels' centres
@@ -50,11 +56,38 @@ uvec2 rangeOf(ivec2 low, ivec2 high, int row) {
   return uvec2(starts[first + low.x], starts[first + high.x + 1]);
 }
 
+// The pixels of the block that are painted here, a bit for each: those within the picture that show
+// movers, or that show none.
+uint ownPixels() {
+  const float kSure = 0.05;
+  ivec2 end = min(ivec2(kBlockSide), size - corner);
+  uint own = (1u << end.x) - 1u;
+  own |= own << 4u;
+  own |= own << 8u;
+  own &= (1u << uint(kBlockSide * end.y)) - 1u;
+  if (moverGroups[2] == 0u) return own;
+  vec2 range = vec2(1.0, 0.0);
+  for (int i = 0; i < 4; ++i) {
+    vec2 away = vec2(4 * (i & 1) - 2, 4 * (i >> 1) - 2);
+    float label = moverAt((middle() + away) / pixelsOfFull).r;
+    range = vec2(min(range.x, label), max(range.y, label));
+  }
+  uint onMovers = range.x > 1.0 - kSure ? own : 0u;
+  int mixed = range.y > kSure && onMovers == 0u ? kBlockPixels : 0;
+  for (int i = 0; i < mixed; ++i) {
+    vec2 px = (vec2(corner + inBlock(i)) + 0.5) / pixelsOfFull;
+    onMovers |= moverAt(px).r > 0.5 ? 1u << i : 0u;
+  }
+  return own & (side == 0 ? ~onMovers : onMovers);
+}
+
 // An upper bound on the distance from the block's middle to any seed that owns a pixel of the
-// block. One near seed gives it.
-float reachOf() {
+// block. One near seed gives it. Seeds of the other side do only where there is no other.
+float findReach(out bool isAlone) {
+  const int kNear = 4;  // rings of bins
   ivec2 here = binOf(middle());
   // nearly always a single round; wider rings where there are no seeds
+  isAlone = false;
   for (int ring = 1;; ring *= 2) {
     ivec2 low = max(here - ring, ivec2(0));
     ivec2 high = min(here + ring, bins - 1);
@@ -62,20 +95,24 @@ float reachOf() {
     for (int row = low.y; row <= high.y; ++row) {
       uvec2 range = rangeOf(low, high, row);
       for (uint i = range.x; i < range.y; ++i) {
-        vec2 apart = vec2(sorted[i].xy) * (1.0 / kPointUnits) - middle();
+        ivec4 point = sorted[i];
+        if (sideOf(point) != side && !isAlone) continue;
+        vec2 apart = vec2(point.xy) * (1.0 / kPointUnits) - middle();
         float far = length(apart) + kHalfDiagonal;
-        near = min(near, far * far + float(sorted[i].z) * (1.0 / (kPointUnits * kPointUnits)));
+        near = min(near, far * far + float(point.z) * (1.0 / (kPointUnits * kPointUnits)));
       }
     }
     bool isAll = low == ivec2(0) && high == bins - 1;
-    if (near < 1.0e12 || isAll) return sqrt(near) + kHalfDiagonal + 0.03;
+    if (near < 1.0e12 || (isAll && isAlone)) return sqrt(near) + kHalfDiagonal + 0.03;
+    isAlone = isAlone || isAll || ring >= kNear;
   }
 }
 
 // Distances are kept with the numbers of their seeds below them, in one word a pixel: registers are
 // few. Squared ones differ from |s|² − 2 p·s by |p|² alone, and that is linear in p.
-void findNearest() {
-  float reach = reachOf();
+void findNearest(uint own) {
+  bool isAlone;
+  float reach = findReach(isAlone);
   low = binOf(middle() - reach);
   high = binOf(middle() + reach);
   uint count = 0u;
@@ -98,6 +135,7 @@ void findNearest() {
     uvec2 range = rangeOf(low, high, row);
     for (uint k = range.x; k < range.y; ++k, ++number) {
       ivec4 point = sorted[k];
+      if (sideOf(point) != side && !isAlone) continue;
       ivec2 s = (point.xy - corner * 64) >> coarser;
       if (any(greaterThan(abs(s), ivec2(23000)))) continue;  // squares would not fit
       int start = s.x * s.x + s.y * s.y - unit * (s.x + s.y) + (point.z >> (2 * coarser));
@@ -111,8 +149,7 @@ void findNearest() {
   }
   uint numbers = (1u << bits) - 1u;
   for (int i = 0; i < kBlockPixels; ++i) {
-    bool isInside = all(lessThan(corner + inBlock(i), size));
-    nearest[i] = isInside ? (nearest[i] & numbers) + 1u : 0u;
+    nearest[i] = (own >> i & 1u) != 0u ? (nearest[i] & numbers) + 1u : 0u;
   }
 }
 
@@ -224,8 +261,10 @@ void main() {
   size = textureSize(picture, 0);
   corner = ivec2(gl_GlobalInvocationID.xy) * kBlockSide;
   if (any(greaterThanEqual(corner, size))) return;
+  uint own = ownPixels();
+  if (own == 0u) return;
   findEdges();
-  findNearest();
+  findNearest(own);
 
   // Cell by cell, from the highest number down, without branches.
   for (uint above = kNamed;;) {
@@ -235,12 +274,12 @@ void main() {
     uint name = nameOf(number - 1u);
     uint places = 0u;
     uint edgePlaces = 0u;
-    uint own = 0u;  // a bit for each pixel
+    uint members = 0u;  // a bit for each pixel
     for (int i = 0; i < kBlockPixels; ++i) {
       ivec2 here = inBlock(i);
       uint place = nearest[i] == number ? uint(here.x | (here.y << 8) | (1 << 16)) : 0u;
       places += place;
-      own |= place != 0u ? 1u << i : 0u;
+      members |= place != 0u ? 1u << i : 0u;
       edgePlaces += (edges >> i & 1u) != 0u ? place : 0u;
       nearest[i] = place != 0u ? kNamed | name : nearest[i];
     }
@@ -249,8 +288,8 @@ void main() {
     if (edgePlaces != 0u) addPlaces(edgePlaces, index + 4u, index + 5u, index + 6u);
     if (wantsMeans) {
       uvec3 colour = uvec3(0u);
-      for (int i = 0; own >> i != 0u; ++i) {
-        uint taken = (own >> i & 1u) != 0u ? 0xFFFFFFFFu : 0u;
+      for (int i = 0; members >> i != 0u; ++i) {
+        uint taken = (members >> i & 1u) != 0u ? 0xFFFFFFFFu : 0u;
         vec3 srgb = texelFetch(picture, inPicture(corner + inBlock(i)), 0).rgb;
         colour += uvec3(linearFromSrgbFast(srgb) * kLinearUnits + 0.5) & taken;
       }
@@ -263,6 +302,6 @@ void main() {
     uint code = codes[i >> 2] >> (8 * (i & 3)) & 0xFFu;
     uint slot = (nearest[i] & ~kNamed) - 1u;
     uint word = packTiling(slot & kSlotBits, (edges >> i & 1u) != 0u, code);
-    imageStore(tiling, corner + inBlock(i), uvec4(word, 0u, 0u, 0u));  // no effect beyond the border
+    if (nearest[i] != 0u) imageStore(tiling, corner + inBlock(i), uvec4(word, 0u, 0u, 0u));
   }
 }
