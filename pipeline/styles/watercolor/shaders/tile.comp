@@ -4,8 +4,9 @@
 //          first, then they. One invocation does a block of 4x4 pixels and adds once per cell in the
 //          block.
 // Inputs:  picture (sRGB-coded), ids (R32UI) if hasObjects; sorted, starts, bins, binPixels: the
-//          seeds (seed_point.glsl, marks/point_bins.h); moverGroups (seeds.comp), mover_labels.glsl's and
-//          pixelsOfFull; side: 1 for movers, 0 for all else; alpha, beta, threshold; wantsMeans: whether colours are summed, too.
+//          seeds (seed_point.glsl, marks/point_bins.h); moverGroups (seeds.comp), mover_labels.glsl's
+//          and pixelsOfFull; side: 1 for movers, 0 for all else; alpha, beta, threshold; wantsMeans:
+//          whether colours are summed, too.
 // Outputs: tiling (R32UI, tiling_word.glsl), sums (cell_sums.glsl).
 // Precision: integers for distances and sums, so that order does not matter; of equally near seeds
 //          the first in `sorted` wins. Distances of more than about 100 px (fewer, where seeds are
