@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <map>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -73,6 +75,24 @@ void timePasses(benchmark::State& state, const gpu::PassTimer& timer,
     times.push_back(seconds * 1e3);
   }
   state.counters["median_ms"] = medianOf(times);
+}
+
+/// Every pass of whole frames, each of which `advance()` makes: medians, ms, as counters. `times()`
+/// gives the totals of a timer that times by fences.
+template <class Times, class Advance>
+void timeEachPass(benchmark::State& state, Times times, Advance advance) {
+  std::map<std::string, std::vector<double>> ms;
+  std::map<std::string, std::chrono::nanoseconds> before;
+  for (const gpu::PassTime& each : times()) before[each.pass] = each.total;
+  for ([[maybe_unused]] auto _ : state) {
+    advance();
+    for (const gpu::PassTime& each : times()) {
+      ms[each.pass].push_back(
+          std::chrono::duration<double, std::milli>(each.total - before[each.pass]).count());
+      before[each.pass] = each.total;
+    }
+  }
+  for (auto& [pass, values] : ms) state.counters[pass] = medianOf(values);
 }
 
 }  // namespace pleinair::bench

@@ -41,8 +41,8 @@ struct Motion {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> part(0.0F, 1.0F);
     for (std::uint32_t i = 0; i < kFeatures; ++i) {
-      const glm::vec2 at = glm::vec2(support::randomVec2(part, random)) *
-                           glm::vec2(size.width, size.height);
+      const glm::vec2 at =
+          glm::vec2(support::randomVec2(part, random)) * glm::vec2(size.width, size.height);
       features.push_back({.id = i, .previous = at, .current = at + kPan, .errorPx = 0.1F});
     }
     image.features = features;

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <ctime>
-#include <map>
 #include <string>
 #include <utility>
 #include <variant>
@@ -19,6 +18,7 @@
 #include "hal/cameras/synthetic/synthetic_camera.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/scene/description/scene_file.h"
+#include "tests/bench/benchmarks.h"
 #include "tests/bench/workbench_film.h"
 #include "tests/support/temporary_folder.h"
 
@@ -107,18 +107,8 @@ void wholeChain(benchmark::State& state, const char* style, std::size_t quality 
 /// Each pass by itself, GPU waited for before and after: medians, ms.
 void stages(benchmark::State& state, std::size_t quality) {
   Chain chain(sizeOf(state), "watercolor", quality, gpu::PassTiming::kFences);
-  std::map<std::string, std::vector<double>> ms;
-  std::map<std::string, std::chrono::nanoseconds> before;
-  for (const gpu::PassTime& each : chain.painter().passTimes()) before[each.pass] = each.total;
-  for ([[maybe_unused]] auto _ : state) {
-    chain.paint();
-    for (const gpu::PassTime& each : chain.painter().passTimes()) {
-      ms[each.pass].push_back(
-          std::chrono::duration<double, std::milli>(each.total - before[each.pass]).count());
-      before[each.pass] = each.total;
-    }
-  }
-  for (const auto& [pass, times] : ms) state.counters[pass] = medianOf(times);
+  bench::timeEachPass(
+      state, [&] { return chain.painter().passTimes(); }, [&] { chain.paint(); });
 }
 
 double processSeconds() {

@@ -39,10 +39,10 @@ float shareOf(hal::Duration step, double timeConstantSeconds) {
   return static_cast<float>(1.0 - std::exp(-seconds / timeConstantSeconds));
 }
 
-/// glDispatchComputeIndirect's command.
+/// The command of glDispatchComputeIndirect: groups along x, y and z.
 using Groups = std::array<std::uint32_t, 3>;
 
-/// Those of a picture's blocks, in no layer yet.
+/// The groups that cover a picture; none along z, until seeds.comp finds a seed of a mover.
 Groups groupsOf(const gpu::Program& program, hal::FrameSize size) {
   const glm::ivec2 groups =
       (gpu::pixelBlocksOf(size) + program.groupSize() - 1) / program.groupSize();
@@ -145,9 +145,10 @@ void CellTiling::findCells(const TilingFrame& input, const WatercolorParameters&
       .set("beta", static_cast<float>(p.edgeBeta))
       .set("threshold", static_cast<float>(p.edgeThreshold))
       .set("wantsMeans", input.wantsMeans ? 1 : 0)
-      .set("side", 0)
+      .set("ofMovers", 0)
       .dispatch(gpu::pixelBlocksOf(size), kWritten);
-  if (input.movers != nullptr) nearest_.set("side", 1).dispatchIndirect(moverGroups_, 0, kWritten);
+  if (input.movers != nullptr)
+    nearest_.set("ofMovers", 1).dispatchIndirect(moverGroups_, 0, kWritten);
 }
 
 /// `atOnce`: all the way, whatever the time constants.

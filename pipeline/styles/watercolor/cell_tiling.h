@@ -87,7 +87,7 @@ class CellTiling {
   gpu::Program move_;
   marks::PointBins bins_;
   marks::LayerTextures layerTextures_;
-  gpu::Buffer moverGroups_;  ///< shaders/seeds.comp
+  gpu::Buffer moverGroups_;  ///< the command that tiles movers (shaders/seeds.comp)
   hal::FrameSize full_;
   int cellSize_ = 1;
   std::uint32_t slots_ = 0;

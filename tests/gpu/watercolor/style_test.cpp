@@ -68,7 +68,7 @@ TEST_F(WatercolorTest, AnotherSizeStartsAnew) {
 /// Another level of quality: the cells go on, seeds in the new size's px.
 TEST_F(WatercolorTest, ASmallerVersionKeepsTheSeeds) {
   Watercolor style(library_);
-  // What moves here without a known motion of the camera would be a mover.
+  // The pictures move without a known motion of the camera: all of them would be movers.
   style.setParameters(style.parameters().with("movers", "false"));
   for (int i = 0; i < 4; ++i) paintFrame(style, i);
   const auto before = pointsOf(style);

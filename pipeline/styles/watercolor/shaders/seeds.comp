@@ -84,7 +84,7 @@ void main() {
   }
   vec2 at = clamp((anchor.px + seed.offset) * pixelsOfFull, vec2(-kFarAway), vec2(kFarAway));
   float penalty = (1.0 - clamp(anchor.fade, 0.0, 1.0)) * growth;
-  bool isOnMover = hasMovers && (anchor.state & kMover) != 0u;
-  if (isOnMover) moverGroups[2] = 1u;
-  store(slot, seedPoint(at, penalty, slot, isOnMover));
+  bool onMover = hasMovers && (anchor.state & kMover) != 0u;
+  if (onMover) moverGroups[2] = 1u;
+  store(slot, seedPoint(at, penalty, slot, onMover));
 }

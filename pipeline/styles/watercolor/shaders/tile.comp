@@ -1,12 +1,12 @@
 // Purpose: for each pixel the nearest seed (thesis §3.2.1; a seed that is fading in has a smaller
 //          cell: a power diagram) and the edge strength (eq. 2-4), and for each cell the sums for
-//          its mean colour and its next tiling. Movers have cells of their own: all else is painted
+//          its mean colour and its next tiling. Movers have cells of their own: all else is tiled
 //          first, then they. One invocation does a block of 4x4 pixels and adds once per cell in the
 //          block.
 // Inputs:  picture (sRGB-coded), ids (R32UI) if hasObjects; sorted, starts, bins, binPixels: the
 //          seeds (seed_point.glsl, marks/point_bins.h); moverGroups (seeds.comp), mover_labels.glsl's
-//          and pixelsOfFull; side: 1 for movers, 0 for all else; alpha, beta, threshold; wantsMeans:
-//          whether colours are summed, too.
+//          and pixelsOfFull; ofMovers: whether movers are tiled, or all else; alpha, beta, threshold;
+//          wantsMeans: whether colours are summed, too.
 // Outputs: tiling (R32UI, tiling_word.glsl), sums (cell_sums.glsl).
 // Precision: integers for distances and sums, so that order does not matter; of equally near seeds
 //          the first in `sorted` wins. Distances of more than about 100 px (fewer, where seeds are
@@ -33,7 +33,7 @@ uniform float alpha;
 uniform float beta;
 uniform float threshold;
 uniform bool wantsMeans;
-uniform int side;
+uniform bool ofMovers;
 uniform vec2 pixelsOfFull;
 
 const int kStrip = 2;  // columns
@@ -57,8 +57,8 @@ uvec2 rangeOf(ivec2 low, ivec2 high, int row) {
   return uvec2(starts[first + low.x], starts[first + high.x + 1]);
 }
 
-// The pixels of the block that are painted here, a bit for each: those within the picture that show
-// movers, or that show none.
+// The pixels of the block that are tiled in this run, a bit for each: those within the picture that
+// show movers, or those that show none.
 uint ownPixels() {
   const float kSure = 0.05;
   ivec2 end = min(ivec2(kBlockSide), size - corner);
@@ -79,16 +79,16 @@ uint ownPixels() {
     vec2 px = (vec2(corner + inBlock(i)) + 0.5) / pixelsOfFull;
     onMovers |= moverAt(px).r > 0.5 ? 1u << i : 0u;
   }
-  return own & (side == 0 ? ~onMovers : onMovers);
+  return own & (ofMovers ? onMovers : ~onMovers);
 }
 
 // An upper bound on the distance from the block's middle to any seed that owns a pixel of the
-// block. One near seed gives it. Seeds of the other side do only where there is no other.
-float findReach(out bool isAlone) {
+// block. One near seed gives it. Where no seed of this run is near, all seeds count.
+float findReach(out bool allCount) {
   const int kNear = 4;  // rings of bins
   ivec2 here = binOf(middle());
   // nearly always a single round; wider rings where there are no seeds
-  isAlone = false;
+  allCount = false;
   for (int ring = 1;; ring *= 2) {
     ivec2 low = max(here - ring, ivec2(0));
     ivec2 high = min(here + ring, bins - 1);
@@ -97,23 +97,23 @@ float findReach(out bool isAlone) {
       uvec2 range = rangeOf(low, high, row);
       for (uint i = range.x; i < range.y; ++i) {
         ivec4 point = sorted[i];
-        if (sideOf(point) != side && !isAlone) continue;
+        if (isOnMover(point) != ofMovers && !allCount) continue;
         vec2 apart = vec2(point.xy) * (1.0 / kPointUnits) - middle();
         float far = length(apart) + kHalfDiagonal;
         near = min(near, far * far + float(point.z) * (1.0 / (kPointUnits * kPointUnits)));
       }
     }
     bool isAll = low == ivec2(0) && high == bins - 1;
-    if (near < 1.0e12 || (isAll && isAlone)) return sqrt(near) + kHalfDiagonal + 0.03;
-    isAlone = isAlone || isAll || ring >= kNear;
+    if (near < 1.0e12 || (isAll && allCount)) return sqrt(near) + kHalfDiagonal + 0.03;
+    allCount = allCount || isAll || ring >= kNear;
   }
 }
 
 // Distances are kept with the numbers of their seeds below them, in one word a pixel: registers are
 // few. Squared ones differ from |s|² − 2 p·s by |p|² alone, and that is linear in p.
 void findNearest(uint own) {
-  bool isAlone;
-  float reach = findReach(isAlone);
+  bool allCount;
+  float reach = findReach(allCount);
   low = binOf(middle() - reach);
   high = binOf(middle() + reach);
   uint count = 0u;
@@ -136,7 +136,7 @@ void findNearest(uint own) {
     uvec2 range = rangeOf(low, high, row);
     for (uint k = range.x; k < range.y; ++k, ++number) {
       ivec4 point = sorted[k];
-      if (sideOf(point) != side && !isAlone) continue;
+      if (isOnMover(point) != ofMovers && !allCount) continue;
       ivec2 s = (point.xy - corner * 64) >> coarser;
       if (any(greaterThan(abs(s), ivec2(23000)))) continue;  // squares would not fit
       int start = s.x * s.x + s.y * s.y - unit * (s.x + s.y) + (point.z >> (2 * coarser));
