@@ -29,6 +29,8 @@ pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(APRILTAG REQUIRED IMPORTED_TARGET apriltag)
 # STL and OBJ models (docs/decisions/0048-mesh-files.md).
 pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)
+# Models without triangles that do not show (docs/decisions/0120-simplified-models.md).
+find_package(meshoptimizer REQUIRED)
 
 # Only the header of tinygltf is used (docs/decisions/0007-tinygltf.md): Debian's library decodes
 # images and opens files by itself, without limits.

@@ -1,8 +1,11 @@
 #include "pipeline/scene/description/model_source.h"
 
+#include <utility>
+
 #include "pipeline/scene/builtin/builtin_box.h"
 #include "pipeline/scene/gltf/gltf_file.h"
 #include "pipeline/scene/meshes/mesh_file.h"
+#include "pipeline/scene/models/simplified_model.h"
 
 namespace pleinair::scene {
 namespace {
@@ -27,7 +30,9 @@ struct ModelMaker {
 }  // namespace
 
 hal::Result<Model> modelOf(const ModelSource& source) {
-  return std::visit(ModelMaker{}, source);
+  return std::visit(ModelMaker{}, source).map([](Model&& model) {
+    return simplified(std::move(model));
+  });
 }
 
 bool hasOwnColours(const ModelSource& source) {

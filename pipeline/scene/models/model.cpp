@@ -26,26 +26,6 @@ std::span<const Surface> surfacesOf(const Model& model, const ModelPart& part) {
 /// Limits the memory of morph targets of subdivided surfaces: triangles times targets times parts.
 constexpr std::size_t kMaxSubdividedMorphs = 4'000'000;
 
-/// The largest scale at which each surface is drawn.
-std::vector<double> scalesAtRest(const Model& model) {
-  ModelPose rest;
-  poseModel(model, std::nullopt, hal::Duration::zero(), rest);
-  std::vector<double> scales(model.surfaces.size(), 0.0);
-  for (const ModelPart& part : model.parts) {
-    for (std::size_t i = part.firstSurface; i < part.firstSurface + part.surfaceCount; ++i) {
-      if (!part.skin) {
-        scales[i] = std::max(scales[i], largestScale(rest.matrices[part.firstMatrix]));
-        continue;
-      }
-      for (const JointBounds& joint : model.bounds[i].joints) {
-        scales[i] =
-            std::max(scales[i], largestScale(rest.matrices[part.firstMatrix + joint.joint]));
-      }
-    }
-  }
-  return scales;
-}
-
 }  // namespace
 
 std::uint32_t Model::triangleCount() const {
@@ -118,6 +98,25 @@ const ModelPart* partOfTriangle(const Model& model, std::uint32_t triangle) {
 const ModelPart* findPart(const Model& model, std::string_view name) {
   const auto found = std::ranges::find(model.parts, name, &ModelPart::name);
   return found == model.parts.end() ? nullptr : &*found;
+}
+
+std::vector<double> scalesAtRest(const Model& model) {
+  ModelPose rest;
+  poseModel(model, std::nullopt, hal::Duration::zero(), rest);
+  std::vector<double> scales(model.surfaces.size(), 0.0);
+  for (const ModelPart& part : model.parts) {
+    for (std::size_t i = part.firstSurface; i < part.firstSurface + part.surfaceCount; ++i) {
+      if (!part.skin) {
+        scales[i] = std::max(scales[i], largestScale(rest.matrices[part.firstMatrix]));
+        continue;
+      }
+      for (const JointBounds& joint : model.bounds[i].joints) {
+        scales[i] =
+            std::max(scales[i], largestScale(rest.matrices[part.firstMatrix + joint.joint]));
+      }
+    }
+  }
+  return scales;
 }
 
 Model withShortEdges(const Model& model, double maxEdgeMetres, std::size_t maxTriangles) {

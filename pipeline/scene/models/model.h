@@ -117,6 +117,9 @@ const ModelPart* partOfTriangle(const Model& model, std::uint32_t triangle);
 /// Returns the first part with that name, or null.
 const ModelPart* findPart(const Model& model, std::string_view name);
 
+/// For each surface the largest scale at which it is drawn at rest; 0 if no part shows it.
+std::vector<double> scalesAtRest(const Model& model);
+
 /// The same model with no edge longer than `maxEdgeMetres` (see the mesh's function), measured in
 /// the model's frame at rest.
 Model withShortEdges(const Model& model, double maxEdgeMetres, std::size_t maxTriangles);
