@@ -10,6 +10,7 @@
 
 #include "pipeline/gpu/buffer.h"
 #include "pipeline/gpu/program.h"
+#include "pipeline/gpu/render_target.h"
 
 namespace pleinair::marks {
 namespace {
@@ -29,24 +30,24 @@ constexpr GLbitfield kStored = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_AC
 
 struct FrontMovers::State {
   State(const gpu::ShaderLibrary& library, hal::FrameSize size)
-      : clear(library.compute("pipeline/marks/shaders/front_clear.comp")),
-        find(library.compute("pipeline/marks/shaders/front_movers.comp")),
+      : find(library.compute("pipeline/marks/shaders/front_movers.comp")),
         show(library.compute("pipeline/marks/shaders/front_labels.comp")),
         labels(TextureFormat::kRgba16f, size, TextureFilter::kLinear),
         shares(TextureFormat::kRgba8, size, TextureFilter::kLinear),
         footprints(sizeof(GpuFootprints), gpu::BufferUsage::kDynamic) {
-    for (gpu::Texture& each : fronts) {
-      each = gpu::Texture(TextureFormat::kRgba16f, size, TextureFilter::kLinear);
+    for (std::size_t i = 0; i < 2; ++i) {
+      fronts.at(i) = {TextureFormat::kRgba16f, size, TextureFilter::kLinear};
+      targets.at(i) = gpu::RenderTarget({&fronts.at(i)});
     }
   }
   void write(const scene::ArFrame& frame);
   void spread(const scene::ArFrame& frame, const gpu::Texture& moverLabels,
               const BusyBlocks& blocks, bool grants, float passed);
 
-  gpu::Program clear;
   gpu::Program find;
   gpu::Program show;
   std::array<gpu::Texture, 2> fronts;
+  std::array<gpu::RenderTarget, 2> targets;  // of fronts
   gpu::Texture labels;
   gpu::Texture shares;
   gpu::Buffer footprints;
@@ -71,9 +72,10 @@ void FrontMovers::State::spread(const scene::ArFrame& frame, const gpu::Texture&
                                 const BusyBlocks& blocks, bool grants, float passed) {
   const std::size_t before = now;
   now = 1 - now;
-  clear.use()
-      .image("front", fronts.at(now), ImageAccess::kWrite)
-      .dispatch({labels.size().width, labels.size().height}, kStored);
+  // No mover, but where it is found.
+  glMemoryBarrier(GL_FRAMEBUFFER_BARRIER_BIT);  // written as an image before
+  targets.at(now).beginDiscarding();
+  targets.at(now).clearColour(0, glm::vec4(0.0F));
   find.use()
       .texture("labels", moverLabels)
       .texture("before", fronts.at(before))

@@ -128,6 +128,7 @@ struct MotionLayers::State {
       labels.at(i) = {TextureFormat::kRgba16f, size, TextureFilter::kLinear};
       shares.at(i) = {TextureFormat::kRgba8, size, TextureFilter::kLinear};
       backgrounds.at(i) = {TextureFormat::kRgba16f, size, TextureFilter::kLinear};
+      noMovers.at(i) = gpu::RenderTarget({&shares.at(i), &carried});
     }
   }
 
@@ -166,6 +167,7 @@ struct MotionLayers::State {
   std::array<gpu::Texture, 2> labels;
   std::array<gpu::Texture, 2> shares;
   std::array<gpu::Texture, 2> backgrounds;
+  std::array<gpu::RenderTarget, 2> noMovers;  // of shares and carried, to clear them
   gpu::Buffer tally;
   gpu::Buffer busy;  // shaders/busy_blocks.glsl
   gpu::Texture noIds;
@@ -260,6 +262,9 @@ gpu::Program& MotionLayers::State::beginToCompare(gpu::Program& program,
 void MotionLayers::State::tellApart(const scene::ArFrame& frame, const MotionField& motion,
                                     float motionScale) {
   const std::size_t before = 1 - now;
+  glMemoryBarrier(GL_FRAMEBUFFER_BARRIER_BIT);  // written as images before
+  noMovers.at(now).beginDiscarding();
+  for (const int each : {0, 1}) noMovers.at(now).clearColour(each, glm::vec4(0.0F));
   motion.bind(carry.use());
   bindBackground(carry, frame, motion);
   bindBusy(carry)
@@ -400,8 +405,6 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .set("freshSeconds", kFreshSeconds)
       .image("labels", s.labels.at(s.now), ImageAccess::kWrite)
       .image("backgroundNow", s.backgrounds.at(s.now), ImageAccess::kWrite)
-      .image("carried", s.carried, ImageAccess::kWrite)
-      .image("shares", s.shares.at(s.now), ImageAccess::kWrite)
       .dispatch(s.cells(), kStored);
   s.begin(s.join, frame, motion, step);
   s.bindBusy(s.join)

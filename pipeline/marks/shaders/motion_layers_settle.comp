@@ -4,8 +4,7 @@
 // Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's, busy_blocks.glsl's; evidence
 //          (motion_layers.comp); picture: this frame's, in cells; background: the previous frame's,
 //          if hasPast; freshSeconds: as motion_layers_join.comp's.
-// Outputs: labels, backgroundNow: as motion_layers_join.comp's; carried, shares: 0. One invocation
-//          per cell.
+// Outputs: labels, backgroundNow: as motion_layers_join.comp's. One invocation per cell.
 // Precision: highp.
 #include "pipeline/marks/shaders/background_mean.glsl"
 #include "pipeline/marks/shaders/busy_blocks.glsl"
@@ -14,8 +13,6 @@
 layout(local_size_x = 16, local_size_y = 4) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D labels;
 layout(rgba16f, binding = 1) writeonly uniform highp image2D backgroundNow;
-layout(rgba8, binding = 2) writeonly uniform highp image2D carried;
-layout(rgba8, binding = 3) writeonly uniform highp image2D shares;
 uniform highp sampler2D evidence;
 uniform highp sampler2D picture;
 uniform highp sampler2D background;
@@ -34,8 +31,6 @@ void main() {
   if (any(greaterThanEqual(cell, imageSize(labels)))) return;
   if (all(equal(cell % kLayerBlock, ivec2(0)))) busyWords[flagsAt(cell / kLayerBlock)] = 0u;
   vec3 now = texelFetch(picture, cell, 0).rgb;
-  imageStore(carried, cell, vec4(0.0));
-  imageStore(shares, cell, vec4(0.0));
   if (!hasPast) {
     imageStore(labels, cell, vec4(0.0));
     imageStore(backgroundNow, cell, vec4(now, 1.0));

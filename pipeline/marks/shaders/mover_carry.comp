@@ -5,7 +5,7 @@
 //          over that of the motion; motion_layers.glsl's.
 // Outputs: carried RGBA8: R: the number of the mover, of 255, 0 if it is not known. One invocation
 //          per cell; a group of them per block of
-//          the second list of busy_blocks.glsl; elsewhere it is 0 (motion_layers_settle.comp).
+//          the second list of busy_blocks.glsl; elsewhere it has been cleared.
 // Precision: highp.
 #include "pipeline/marks/shaders/busy_blocks.glsl"
 #include "pipeline/marks/shaders/motion_layers.glsl"

@@ -3,7 +3,7 @@
 // Inputs:  labels, picture: this frame's, in cells; carried (mover_carry.comp); numbers
 //          (mover_parts.comp).
 // Outputs: shares RGBA8: 1 for the mover, 1 to 3. A group of invocations per block of the second
-//          list of busy_blocks.glsl; elsewhere it is 0 (motion_layers_settle.comp).
+//          list of busy_blocks.glsl; elsewhere it has been cleared.
 // Precision: highp.
 #include "pipeline/marks/shaders/busy_blocks.glsl"
 #include "pipeline/marks/shaders/colour_difference.glsl"
