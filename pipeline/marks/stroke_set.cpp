@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,10 +35,10 @@ std::uint32_t strideFor(std::uint32_t n) {
 }  // namespace
 
 struct StrokeSet::State {
-  State(const gpu::ShaderLibrary& library, std::uint32_t slotCount)
-      : slots(slotCount),
+  State(const gpu::ShaderLibrary& shaderLibrary, std::uint32_t slotCount)
+      : library(shaderLibrary),
+        slots(slotCount),
         carry(library.compute(kShaders + "stroke_carry.comp")),
-        trace(library.compute(kShaders + "stroke_trace.comp")),
         order(library.compute(kShaders + "stroke_order.comp")),
         lay(library.compute(kShaders + "stroke_instances.comp")),
         strokes(slots * kStrokeBytes, gpu::BufferUsage::kDynamic),
@@ -49,9 +50,11 @@ struct StrokeSet::State {
     strokes.write(std::vector<std::byte>(strokes.sizeBytes()));
   }
 
+  const gpu::ShaderLibrary& library;
   std::uint32_t slots;
   gpu::Program carry;
-  gpu::Program trace;
+  std::optional<gpu::Program> trace;
+  std::optional<gpu::Program> traceMoversOnly;
   gpu::Program order;
   gpu::Program lay;
   gpu::Buffer strokes;
@@ -63,6 +66,9 @@ struct StrokeSet::State {
   LayerTextures layerTextures;
   hal::TimePoint lastTime;
 
+  /// The program that traces strokes. Where there are no objects and no segments yet, it is a
+  /// smaller one that knows nothing of them.
+  gpu::Program& traceOf(const scene::ArFrame& frame, const gpu::Texture* borders);
   glm::ivec2 allSlots() const { return {static_cast<int>(slots), 1}; }
   void carryWithObjects(const scene::ArFrame& frame, const AnchorSet& anchors,
                         const StrokeRule& rule);
@@ -103,6 +109,16 @@ void StrokeSet::State::carryWithObjects(const scene::ArFrame& frame, const Ancho
       .dispatch(allSlots(), GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
+gpu::Program& StrokeSet::State::traceOf(const scene::ArFrame& frame, const gpu::Texture* borders) {
+  const std::string shader = kShaders + "stroke_trace.comp";
+  if (!trace && !frame.hasObjects && borders == nullptr) {
+    if (!traceMoversOnly) traceMoversOnly = library.compute(shader, {{"MOVERS_ONLY"}});
+    return *traceMoversOnly;
+  }
+  if (!trace) trace = library.compute(shader);
+  return *trace;
+}
+
 void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchors,
                             const TensorField& field, const StrokePaint& paint,
                             const StrokeRule& rule, const MotionLayers* layers,
@@ -113,7 +129,8 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
   const std::size_t level = std::min(rule.fieldLevel, field.levelCount() - 1);
   const bool hasDepth = frame.hasObjects && frame.depth != nullptr;
   const std::size_t detail = std::min(kDetailLevel, field.levelCount() - 1);
-  trace.use()
+  gpu::Program& program = traceOf(frame, borders);
+  program.use()
       .storage("Anchors", anchors.anchors())
       .storage("Strokes", strokes)
       .texture("field", field.resolved(level))
@@ -136,11 +153,8 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
                          : frame.hasObjects ? *frame.forms
                                             : noIds)
       .set("labelMask", borders != nullptr ? kBorderLabels : kFormLabels)
-      .set("hasLabels", borders != nullptr || frame.hasObjects ? 1 : 0)
-      .set("hasSegments", borders != nullptr ? 1 : 0)
       .texture("depth", hasDepth ? *frame.depth : anyColour)
       .set("depthRange", hasDepth ? glm::vec2(frame.nearMetres, frame.farMetres) : glm::vec2(0.0F))
-      .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("objectBounds", frame.objectBoundsOrAll())
       .set("anew", anchors.hasBegunAnew() ? 1 : 0)
       .set("fullSize", glm::vec2(frame.full().width, frame.full().height))
@@ -176,8 +190,13 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("imageScale", static_cast<float>(anchors.imageScale()))
       .set("focalPx", frame.surfaces ? focalOf(*frame.surfaces, frame) : 0.0F)
       .set("layer", glm::vec2(rule.layer, rule.layers));
-  rule.focus.bind(trace);
-  trace.dispatch(allSlots(), GL_SHADER_STORAGE_BARRIER_BIT);
+  if (trace) {
+    program.set("hasLabels", borders != nullptr || frame.hasObjects ? 1 : 0)
+        .set("hasSegments", borders != nullptr ? 1 : 0)
+        .set("hasObjects", frame.hasObjects ? 1 : 0);
+  }
+  rule.focus.bind(program);
+  program.dispatch(allSlots(), GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void StrokeSet::State::layOut(const AnchorSet& anchors, const StrokeRule& rule) {

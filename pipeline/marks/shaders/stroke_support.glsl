@@ -1,5 +1,6 @@
 // Purpose: what a stroke is painted on, and the direction, the colour and the detail that it finds
 //          there: those of its own patch, segment or layer.
+// Defines: MOVERS_ONLY: there are no objects and no segments.
 // Inputs:  field: tensors to follow, detailField: tensors with the detail; modelField,
 //          modelDetailField, moverField: those of virtual objects and of movers, each with its
 //          scale, px of the full image to texture coordinates; mover_places.glsl's and
@@ -30,8 +31,13 @@ uniform highp sampler2D fineGround;
 uniform float paintTexel;
 uniform highp usampler2D labels;
 uniform uint labelMask;
+#ifdef MOVERS_ONLY
+const bool hasLabels = false;
+const bool hasSegments = false;
+#else
 uniform bool hasLabels;
 uniform bool hasSegments;
+#endif
 uniform vec2 fullSize;
 uniform vec2 pixelsOfFull;
 uniform vec2 fieldScale;  // px of the full image to texture coordinates of the fields

@@ -3,6 +3,7 @@
 //          constants (§5.4), so that a stroke lives as long as its anchor.
 //          A stroke stays on what it lies on: it ends where its label does (stroke_label.glsl), or
 //          its depth makes a step.
+// Defines: stroke_support.glsl's.
 // Inputs:  anchors; stroke_walk.glsl's; background (marks::MotionLayers); ids (ArFrame) if
 //          hasObjects; depthRange: the near and the far plane in metres, 0: no depth; focalPx: of
 //          the full image, 0: not known; imageScale: the anchors', octaves; focus.glsl's; layer: its

@@ -1,5 +1,6 @@
 // Purpose: walks one arm of a stroke along the field (thesis §4.4) until it turns too sharply,
 //          leaves what it lies on, or its colour or detail is no longer the stroke's.
+// Defines: stroke_support.glsl's.
 // Inputs:  stroke_support.glsl's; depth (ArFrame) if hasObjects, within objectBounds; segment: the
 //          length of a step, px of the full image; steps: of an arm, at most kArm; minSteps: of one
 //          that detail or colour ends; colourThreshold; cutOff: cosine of the sharpest turn;
@@ -11,7 +12,11 @@
 #include "pipeline/marks/shaders/stroke_support.glsl"
 #include "pipeline/scene/render/shaders/depth_step.glsl"
 uniform highp sampler2D depth;
+#ifdef MOVERS_ONLY
+const bool hasObjects = false;
+#else
 uniform bool hasObjects;
+#endif
 uniform vec4 objectBounds;
 uniform float segment;       // px
 uniform float steps;         // at most kArm

@@ -46,14 +46,14 @@ vec2 brushPlace() {
 // of a pixel that the stroke moves. So would bristles that are thinner than a pixel; they go where
 // strokes are carried by models and movers.
 vec2 markAt(vec2 place) {
-  vec2 mark = texture(brushes, place).rg;
-  // A loop that no invocation enters costs nothing on software renderers.
-  for (int i = abs(sense) > kSoftBristles ? 0 : 1; i < 1; ++i) {
-    vec2 aside = 0.5 / vec2(textureSize(brushes, 0));
-    mark = 0.25 * (texture(brushes, place - aside).rg + texture(brushes, place + aside).rg +
-                   texture(brushes, place + vec2(aside.x, -aside.y)).rg +
-                   texture(brushes, place + vec2(-aside.x, aside.y)).rg);
+  bool isSoft = abs(sense) > kSoftBristles;
+  vec2 aside = isSoft ? 0.5 / vec2(textureSize(brushes, 0)) : vec2(0.0);
+  int taps = isSoft ? 4 : 1;
+  vec2 sum = vec2(0.0);
+  for (int i = 0; i < taps; ++i) {
+    sum += texture(brushes, place + aside * (2.0 * vec2(i & 1, i >> 1) - 1.0)).rg;
   }
+  vec2 mark = sum / float(taps);
   float halfWidth = kSmooth / (drawnWidth() - 1.0);
   float side = clamp(0.5 + halfWidth * (1.0 - abs(acrossStroke())), 0.0, 1.0);
   return mark * vec2(side, 1.0);
