@@ -87,7 +87,9 @@ FramePipeline::FramePipeline(const PainterOptions& options, PainterGl gl)
       luma_(library_, gl_.info, testHook_),
       renderer_(library_, options.scene),
       bufferViewer_(library_),
-      style_(styles::makeStyle(options.style, library_)),
+      style_(styles::makeStyle(options.style, library_,
+                               options.scene.models.empty() ? styles::SceneContents::kCameraOnly
+                                                            : styles::SceneContents::kModels)),
       defaults_(style_->parameters()),
       light_(makeLightEstimator(options)) {
   hal::orThrow(tracking::checkTagFamily(scene_.tagFamily));

@@ -66,7 +66,7 @@ struct StrokeSet::State {
   LayerTextures layerTextures;
   hal::TimePoint lastTime;
 
-  /// The program that traces strokes. Where there are no objects and no segments yet, it is a
+  /// The program that traces strokes: where the scene has no models and the image no segments, a
   /// smaller one that knows nothing of them.
   gpu::Program& traceOf(const scene::ArFrame& frame, const gpu::Texture* borders);
   glm::ivec2 allSlots() const { return {static_cast<int>(slots), 1}; }
@@ -111,7 +111,7 @@ void StrokeSet::State::carryWithObjects(const scene::ArFrame& frame, const Ancho
 
 gpu::Program& StrokeSet::State::traceOf(const scene::ArFrame& frame, const gpu::Texture* borders) {
   const std::string shader = kShaders + "stroke_trace.comp";
-  if (!trace && !frame.hasObjects && borders == nullptr) {
+  if (!frame.mayHaveObjects() && borders == nullptr) {
     if (!traceMoversOnly) traceMoversOnly = library.compute(shader, {{"MOVERS_ONLY"}});
     return *traceMoversOnly;
   }
@@ -190,7 +190,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("imageScale", static_cast<float>(anchors.imageScale()))
       .set("focalPx", frame.surfaces ? focalOf(*frame.surfaces, frame) : 0.0F)
       .set("layer", glm::vec2(rule.layer, rule.layers));
-  if (trace) {
+  if (&program != (traceMoversOnly ? &*traceMoversOnly : nullptr)) {
     program.set("hasLabels", borders != nullptr || frame.hasObjects ? 1 : 0)
         .set("hasSegments", borders != nullptr ? 1 : 0)
         .set("hasObjects", frame.hasObjects ? 1 : 0);

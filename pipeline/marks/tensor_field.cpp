@@ -17,6 +17,7 @@
 #include "pipeline/marks/fading_past.h"
 #include "pipeline/marks/layer_textures.h"
 #include "pipeline/marks/tensor_pyramid.h"
+#include "pipeline/scene/render/object_programs.h"
 
 namespace pleinair::marks {
 namespace {
@@ -49,10 +50,17 @@ struct TensorField::State {
 
   State(const gpu::ShaderLibrary& library, hal::FrameSize fullSize)
       : full(fullSize),
-        gradient(library.fragmentPass(kShaders + "gradient.frag", {}, {gpu::TextureFormat::kRg16f})),
-        histogram(library.compute(kShaders + "edge_histogram.comp")),
+        gradient([&library](const gpu::ShaderDefines& defines) {
+          return library.fragmentPass(kShaders + "gradient.frag", defines,
+                                      {gpu::TextureFormat::kRg16f});
+        }),
+        histogram([&library](const gpu::ShaderDefines& defines) {
+          return library.compute(kShaders + "edge_histogram.comp", defines);
+        }),
         threshold(library.compute(kShaders + "edge_threshold.comp")),
-        regions(library.compute(kShaders + "tensor_regions.comp")),
+        regions([&library](const gpu::ShaderDefines& defines) {
+          return library.compute(kShaders + "tensor_regions.comp", defines);
+        }),
         modelRegions(library.compute(kShaders + "tensor_models.comp")),
         pyramid(library),
         edges(kEdgeWords * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
@@ -68,10 +76,10 @@ struct TensorField::State {
   }
 
   hal::FrameSize full;
-  gpu::Program gradient;
-  gpu::Program histogram;
+  scene::ObjectPrograms gradient;
+  scene::ObjectPrograms histogram;
   gpu::Program threshold;
-  gpu::Program regions;
+  scene::ObjectPrograms regions;
   gpu::Program modelRegions;
   TensorPyramidMaker pyramid;
   gpu::Buffer edges;
@@ -125,15 +133,13 @@ struct TensorField::State {
 void TensorField::State::findEdges(const scene::ArFrame& frame, const gpu::Texture& picture,
                                    const MotionLayers* layers, float share) {
   const Gradient& made = gradientOf(picture.size());
-  gradient.use()
+  gradient.use(frame)
       .texture("picture", picture)
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
-      .set("hasObjects", frame.hasObjects ? 1 : 0)
       .drawFullscreen(made.target);
-  histogram.use()
+  histogram.use(frame)
       .texture("tensors", made.texture)
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
-      .set("hasObjects", frame.hasObjects ? 1 : 0)
       .texture("movers", layerTextures.labelsOf(layers))
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .storage("Edges", edges)
@@ -152,14 +158,14 @@ void TensorField::State::sumRegions(const scene::ArFrame& frame, const MotionFie
   std::swap(moverRegions, moversBefore);
   // Where the motion of the image is not followed, neither is that of real surfaces.
   const bool hasSurfaces = frame.motion && motion.follows();
-  motion.bindBackward(regions.use());
-  regions.texture("tensors", gradientOf(frame.size()).texture)
+  gpu::Program& program = regions.use(frame);
+  motion.bindBackward(program);
+  program.texture("tensors", gradientOf(frame.size()).texture)
       .texture("before", before)
       .texture("moversBefore", moversBefore)
       .texture("movers", layerTextures.labelsOf(layers))
       .texture("motion", motion.backward())
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
-      .set("hasObjects", frame.hasObjects ? 1 : 0)
       .texture("surfaceMotion", hasSurfaces ? *frame.motion->texture : before)
       .set("hasSurfaces", hasSurfaces ? 1 : 0)
       .storage("Edges", edges)

@@ -51,8 +51,9 @@ void addStyleShaders(gpu::ShaderLibrary& library) {
   }
 }
 
-std::unique_ptr<Style> makeStyle(std::string_view name, const gpu::ShaderLibrary& library) {
-  return styleKind(name).make(library);
+std::unique_ptr<Style> makeStyle(std::string_view name, const gpu::ShaderLibrary& library,
+                                 SceneContents contents) {
+  return styleKind(name).make(library, contents);
 }
 
 }  // namespace pleinair::styles

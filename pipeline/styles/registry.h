@@ -19,6 +19,7 @@ const StyleKind& styleKind(std::string_view name);
 void addStyleShaders(gpu::ShaderLibrary& library);
 
 /// Makes a style as StyleKind::make does. Throws as styleKind() does.
-std::unique_ptr<Style> makeStyle(std::string_view name, const gpu::ShaderLibrary& library);
+std::unique_ptr<Style> makeStyle(std::string_view name, const gpu::ShaderLibrary& library,
+                                 SceneContents contents = SceneContents::kModels);
 
 }  // namespace pleinair::styles

@@ -30,6 +30,9 @@ struct Look {
   std::string_view toml;  ///< a table of the style's parameters, as in a configuration file
 };
 
+/// What the frames of a style may show, for which it is warmed up.
+enum class SceneContents { kCameraOnly, kModels };
+
 /// The descriptor of a style: all that is known of it without a GPU, and how to make it. Each
 /// style's folder exports one, which pipeline/styles/registry.cpp lists.
 struct StyleKind {
@@ -45,7 +48,8 @@ struct StyleKind {
   hal::Result<void> (*check)(const config::ParameterValues& values) = nullptr;
   /// Makes one, on the thread of the current GL context, with its programs warmed up. `library`,
   /// which outlives it, has the shaders of all styles, marks and the scene.
-  std::unique_ptr<Style> (*make)(const gpu::ShaderLibrary& library) = nullptr;
+  std::unique_ptr<Style> (*make)(const gpu::ShaderLibrary& library,
+                                 SceneContents contents) = nullptr;
 
   /// The defaults under the look's values, whose origin names the look. Throws config::ConfigError
   /// for an unknown name, with all names.

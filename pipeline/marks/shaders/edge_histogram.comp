@@ -1,5 +1,6 @@
 // Purpose: the distribution of the frame's edge strengths: a histogram of every fourth pixel's P,
 //          without virtual objects and movers, so that what comes in changes nothing elsewhere.
+// Defines: has_objects.glsl's.
 // Inputs:  tensors (gradient.frag); ids (ArFrame) if hasObjects; edge_parts.glsl's; pixelsOfFull.
 // Outputs: bins, which were 0 (edge_threshold.comp). One invocation per pixel.
 // Precision: integer counts, so that order does not matter.
@@ -8,9 +9,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) buffer Edges { EdgeStrengths frameEdges; };
 uniform highp sampler2D tensors;
 uniform highp usampler2D ids;
-uniform bool hasObjects;
 uniform vec2 pixelsOfFull;
 #include "pipeline/marks/shaders/edge_parts.glsl"
+#include "pipeline/scene/render/shaders/has_objects.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 
 shared uint counted[kBins];

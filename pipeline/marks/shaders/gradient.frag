@@ -2,16 +2,17 @@
 //          doubled angle (eq. 9), in which directions have no sign and can be added. The border of
 //          a virtual object is no edge of either side: what is behind a model, or before the
 //          camera's picture, changes nothing about the other.
+// Defines: has_objects.glsl's.
 // Inputs:  picture (RGBA8, sRGB-coded), clamped at the border; ids (ArFrame) if hasObjects.
 // Outputs: RG16F: P cos 2θ, P sin 2θ, θ the gradient's direction; P is its length, of luma in [0,
 //          1].
 // Precision: highp for squares of small differences.
 uniform sampler2D picture;
 uniform highp usampler2D ids;
-uniform bool hasObjects;
 layout(location = 0) out vec2 tensor;
 
 #include "pipeline/gpu/shaders/luma.glsl"
+#include "pipeline/scene/render/shaders/has_objects.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 
 uint virtualAt(ivec2 at) {

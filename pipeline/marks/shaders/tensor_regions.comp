@@ -4,6 +4,7 @@
 //          (tensor_models.comp), the background's stay as they were. On planes and real things whose
 //          poses are known they go with the surface (thesis §6.2), unless the measured motion is
 //          surer or contradicts it; its perspective turns them as it does the surface's lines.
+// Defines: has_objects.glsl's.
 // Inputs:  tensors (gradient.frag), threshold (edge_threshold.comp), pixelsOfFull; regionPixels: a
 //          region's side in px of the full image; before, moversBefore: the previous frame's
 //          regions, motion (MotionField's), if hasPast; past: the share of them that remains;
@@ -15,6 +16,7 @@
 #include "pipeline/marks/shaders/edge_bins.glsl"
 #include "pipeline/marks/shaders/image_motion.glsl"
 #include "pipeline/marks/shaders/tensor_region.glsl"
+#include "pipeline/scene/render/shaders/has_objects.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) readonly buffer Edges { EdgeStrengths frameEdges; };
@@ -25,7 +27,6 @@ uniform highp sampler2D before;
 uniform highp sampler2D moversBefore;
 uniform highp sampler2D motion;
 uniform highp usampler2D ids;
-uniform bool hasObjects;
 uniform highp sampler2D surfaceMotion;
 uniform bool hasSurfaces;
 uniform vec2 pixelsOfFull;

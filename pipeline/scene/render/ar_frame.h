@@ -145,6 +145,7 @@ struct ArFrame {
   /// Set if asked for.
   std::optional<MeasuredSegments> measuredSegments;
   bool hasObjects = false;  ///< whether any virtual object may be visible; if not, all ids are 0
+  bool sceneHasModels = false;
   /// Where ids and forms may be other than 0: low and high corner, px of this image. Unset:
   /// anywhere.
   std::optional<glm::ivec4> objectBounds;
@@ -166,6 +167,8 @@ struct ArFrame {
   /// lengths of styles in px refer to that size.
   std::optional<hal::FrameSize> fullSize;
 
+  /// Whether this or another frame of the scene may have objects.
+  bool mayHaveObjects() const { return hasObjects || sceneHasModels; }
   const gpu::Texture& camera() const { return cameraColour != nullptr ? *cameraColour : *colour; }
   hal::FrameSize size() const { return colour->size(); }
   /// The same for shaders, which skip the rest of the image; empty if there are no objects.

@@ -169,6 +169,7 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
   frame_.normalFocus = &surfacesNow_->normalFocus;
   frame_.depth = &surfacesNow_->depth;
   frame_.hasObjects = !visible_.empty();
+  frame_.sceneHasModels = !geometry_.isEmpty();
   frame_.hasFocus = std::ranges::any_of(
       visible_, [&](std::size_t each) { return scene_.models[each].focus > 0.0F; });
   frame_.foci = foci_;

@@ -292,7 +292,7 @@ void Hatching::State::drawLines(const scene::ArFrame& frame, const HatchingParam
         .set("scale", static_cast<float>(frame.pixelsOfFull().x))
         .set("fullSize", glm::vec2(frame.full().width, frame.full().height));
     if (isClipped) program.texture("borders", canvas->borders);
-    strips.draw(program, set->strips(), canvas->inkTarget);
+    strips.draw(program, set->strips(), false, canvas->inkTarget);
   }
 }
 
@@ -345,22 +345,21 @@ const StyleKind& hatchingKind() {
           [](const config::ParameterValues& values) {
             return checkBrushFile(hatchingParameters().typed(values).brushFile);
           },
-      .make = [](const gpu::ShaderLibrary& library) -> std::unique_ptr<Style> {
-        return std::make_unique<Hatching>(library);
-      }};
+      .make = [](const gpu::ShaderLibrary& library, SceneContents contents)
+          -> std::unique_ptr<Style> { return std::make_unique<Hatching>(library, contents); }};
   return kKind;
 }
 
-Hatching::Hatching(const gpu::ShaderLibrary& library)
+Hatching::Hatching(const gpu::ShaderLibrary& library, SceneContents contents)
     : values_(hatchingParameters().defaults()), state_(std::make_unique<State>(library)) {
-  warmUp();
+  warmUp(contents);
 }
 
 Hatching::~Hatching() = default;
 
 /// A program's real cost on software renderers is at its first use: here, not in the first frame
 /// that shows a model, has a focus or is looked at in another way.
-void Hatching::warmUp() {
+void Hatching::warmUp(SceneContents contents) {
   constexpr hal::FrameSize kSize{16, 16};
   const std::vector<std::uint8_t> zeros(std::size_t{16} * 16 * 4);
   Texture grey(TextureFormat::kRgba8, kSize, TextureFilter::kLinear);
@@ -369,14 +368,16 @@ void Hatching::warmUp() {
   ids.upload(zeros, std::size_t{16} * 4);
   scene::ArFrame frame{
       .colour = &grey, .ids = &ids, .normalFocus = &grey, .barycentrics = &ids, .forms = &ids};
+  const bool hasModels = contents == SceneContents::kModels;
+  frame.sceneHasModels = hasModels;
   paint(frame, kViews.front().name);
   for (const bool hasMore : {true, false}) {
     p_.movers = hasMore;
-    frame.hasObjects = frame.hasFocus = hasMore;
+    frame.hasObjects = frame.hasFocus = hasMore && hasModels;
     ++frame.sequence;
     paint(frame, {});
   }
-  state_->hiding.warmUp();
+  if (hasModels) state_->hiding.warmUp();
   p_ = hatchingParameters().typed(values_);
   state_->drawing.reset();
   state_->filtered.reset();

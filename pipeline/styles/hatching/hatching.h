@@ -29,7 +29,8 @@ class Hatching final : public Style {
  public:
   /// The library, which outlives it, holds gpu::hatchingShaders(), strokesShaders(),
   /// substrateShaders(), marksShaders() and sceneShaders().
-  explicit Hatching(const gpu::ShaderLibrary& library);
+  explicit Hatching(const gpu::ShaderLibrary& library,
+                    SceneContents contents = SceneContents::kModels);
   ~Hatching() override;
   Hatching(const Hatching&) = delete;
   Hatching& operator=(const Hatching&) = delete;
@@ -54,7 +55,7 @@ class Hatching final : public Style {
 
  private:
   struct State;
-  void warmUp();
+  void warmUp(SceneContents contents);
 
   config::ParameterValues values_;
   HatchingParameters p_;

@@ -259,9 +259,14 @@ void Painterly::State::findBorders(const scene::ArFrame& frame, const PainterlyP
 }
 
 void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyParameters& p) {
+  StripClipping clipping{.clips = clip != nullptr};
+  if (!frame.hasObjects && !painting->segments.hasSegments() && moversOf(p) != nullptr) {
+    clipping.onlyMovers = moversOf(p)->busyBlocks();
+  }
   // All of them before any is drawn: what is drawn on stays in a tile's memory (docs/gpu.md).
   for (const auto& layer : painting->layers) {
-    strips.lay(layer->strokes.instances(), layer->strokes.command(), p.quads, layer->strips);
+    strips.lay(layer->strokes.instances(), layer->strokes.command(), p.quads, layer->strips,
+               clipping);
   }
   ground.use()
       .texture("paint", reduced.whole(kGroundHalvings))
@@ -280,6 +285,7 @@ void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyP
                           .relief = static_cast<float>(p.relief),
                           .gloss = static_cast<float>(p.gloss)};
   const StrokeClip clipped{.borders = clip,
+                           .onlyMovers = clipping.onlyMovers.has_value(),
                            .picture = &reduced.whole(kClipHalvings),
                            .colour = p.coherence < 1.0 ? static_cast<float>(p.colourClip) : 0.0F,
                            .byLuma = mixtures.has_value()};
@@ -363,16 +369,16 @@ const Texture& Painterly::State::show(const scene::ArFrame& frame, const Painter
   return canvas->picture;
 }
 
-Painterly::Painterly(const gpu::ShaderLibrary& library)
+Painterly::Painterly(const gpu::ShaderLibrary& library, SceneContents contents)
     : values_(painterlyParameters().defaults()), state_(std::make_unique<State>(library)) {
-  warmUp();
+  warmUp(contents);
 }
 
 Painterly::~Painterly() = default;
 
 /// A program's real cost on software renderers is at its first use: here, not in the first frame
 /// that shows a model, has a focus or is looked at in another way.
-void Painterly::warmUp() {
+void Painterly::warmUp(SceneContents contents) {
   constexpr hal::FrameSize kSize{16, 16};
   const std::vector<std::uint8_t> zeros(std::size_t{16} * 16 * 4);
   Texture grey(TextureFormat::kRgba8, kSize, TextureFilter::kLinear);
@@ -381,16 +387,18 @@ void Painterly::warmUp() {
   ids.upload(zeros, std::size_t{16} * 4);
   scene::ArFrame frame{
       .colour = &grey, .ids = &ids, .normalFocus = &grey, .barycentrics = &ids, .forms = &ids};
+  const bool hasModels = contents == SceneContents::kModels;
+  frame.sceneHasModels = hasModels;
   for (const DebugViewInfo& view : painterlyViews()) paint(frame, view.name);
   for (const StrokeBump bump : {StrokeBump::kEach, StrokeBump::kOnce}) {
     p_.bump = bump;
     for (const bool isShown : {true, false}) {
-      frame.hasObjects = frame.hasFocus = isShown;
+      frame.hasObjects = frame.hasFocus = isShown && hasModels;
       ++frame.sequence;
       paint(frame, {});
     }
   }
-  state_->hiding.warmUp();
+  if (hasModels) state_->hiding.warmUp();
   p_ = painterlyParameters().typed(values_);
   state_->painting.reset();
   state_->canvas = nullptr;

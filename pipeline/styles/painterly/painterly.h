@@ -30,7 +30,8 @@ class Painterly final : public Style {
  public:
   /// The library, which outlives it, holds gpu::painterlyShaders(), strokesShaders(),
   /// substrateShaders(), marksShaders(), sceneShaders(), gpuShaders().
-  explicit Painterly(const gpu::ShaderLibrary& library);
+  explicit Painterly(const gpu::ShaderLibrary& library,
+                     SceneContents contents = SceneContents::kModels);
   ~Painterly() override;
   Painterly(const Painterly&) = delete;
   Painterly& operator=(const Painterly&) = delete;
@@ -60,7 +61,7 @@ class Painterly final : public Style {
  private:
   struct State;
 
-  void warmUp();
+  void warmUp(SceneContents contents);
 
   config::ParameterValues values_;
   PainterlyParameters p_;

@@ -54,9 +54,8 @@ const StyleKind& painterlyKind() {
       .coherence = {.gates = kGates, .holdsAnchors = true, .paperLooks = kPaperLooks},
       .shaders = {gpu::painterlyShaders(), gpu::strokesShaders(), gpu::substrateShaders()},
       .check = checkBrush,
-      .make = [](const gpu::ShaderLibrary& library) -> std::unique_ptr<Style> {
-        return std::make_unique<Painterly>(library);
-      }};
+      .make = [](const gpu::ShaderLibrary& library, SceneContents contents)
+          -> std::unique_ptr<Style> { return std::make_unique<Painterly>(library, contents); }};
   return kKind;
 }
 

@@ -12,7 +12,7 @@ const StyleKind& plainKind() {
       .defaults = config::ParameterValues(std::make_shared<const config::ParameterList>(
           std::vector<config::ParameterDescriptor>{})),
       .needs = {.shading = scene::Shading::kSmooth},
-      .make = [](const gpu::ShaderLibrary&) -> std::unique_ptr<Style> {
+      .make = [](const gpu::ShaderLibrary&, SceneContents) -> std::unique_ptr<Style> {
         return std::make_unique<Plain>();
       }};
   return kKind;

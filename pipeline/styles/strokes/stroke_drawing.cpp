@@ -49,7 +49,7 @@ gpu::VertexArrayHandle stripLayout() {
 /// Blends what the command draws of the vertices over what is there.
 void drawOver(const gpu::Program& program, const gpu::RenderTarget& target,
               const gpu::VertexArrayHandle& layout, const gpu::Buffer& vertices,
-              std::size_t strideBytes, const gpu::Buffer& command) {
+              std::size_t strideBytes, const gpu::Buffer& commands, std::size_t command) {
   const auto stride = static_cast<GLsizei>(strideBytes);
   target.beginKeeping();
   glDisable(GL_DEPTH_TEST);
@@ -58,9 +58,11 @@ void drawOver(const gpu::Program& program, const gpu::RenderTarget& target,
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glBindVertexArray(layout.get());
   glBindVertexBuffer(0, vertices.name(), 0, stride);
-  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, command.name());
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.name());
   const gpu::PassTimer::Scope scope = program.measure();
-  glDrawArraysIndirect(GL_TRIANGLE_STRIP, nullptr);
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): an offset, as GL has it
+  glDrawArraysIndirect(GL_TRIANGLE_STRIP,
+                       reinterpret_cast<const void*>(command * gpu::kDrawCommandBytes));
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
   glBindVertexBuffer(0, 0, 0, stride);
   glBindVertexArray(0);
@@ -71,9 +73,10 @@ void drawOver(const gpu::Program& program, const gpu::RenderTarget& target,
 
 StripDrawing::StripDrawing() : layout_(stripLayout()) {}
 
-void StripDrawing::draw(const gpu::Program& program, const StrokeStrips& strips,
+void StripDrawing::draw(const gpu::Program& program, const StrokeStrips& strips, bool clipped,
                         const gpu::RenderTarget& target) const {
-  drawOver(program, target, layout_, strips.vertices, StrokeStrips::kVertexBytes, strips.command);
+  drawOver(program, target, layout_, strips.vertices, StrokeStrips::kVertexBytes, strips.commands,
+           clipped ? 1 : 0);
 }
 
 StrokeDrawing::StrokeDrawing(const gpu::ShaderLibrary& library,
@@ -90,18 +93,28 @@ StrokeDrawing::StrokeDrawing(const gpu::ShaderLibrary& library,
 void StrokeDrawing::draw(const StrokeStrips& strips, const gpu::Texture& brush,
                          const StrokeLight& light, const StrokeClip& clip, hal::FrameSize full,
                          const gpu::RenderTarget& target) {
-  gpu::Program& program = paint_[light.each ? 1 : 0][clip.borders != nullptr ? 1 : 0];
+  // One of them draws nothing.
+  if (clip.borders == nullptr || clip.onlyMovers) {
+    drawSome(false, strips, brush, light, clip, full, target);
+  }
+  if (clip.borders != nullptr) drawSome(true, strips, brush, light, clip, full, target);
+}
+
+void StrokeDrawing::drawSome(bool clipped, const StrokeStrips& strips, const gpu::Texture& brush,
+                             const StrokeLight& light, const StrokeClip& clip, hal::FrameSize full,
+                             const gpu::RenderTarget& target) {
+  gpu::Program& program = paint_[light.each ? 1 : 0][clipped ? 1 : 0];
   const hal::FrameSize size = target.size();
   program.use().texture("brushes", brush).set("fullSize", glm::vec2(full.width, full.height));
   if (light.each) program.set("relief", light.relief).set("gloss", light.gloss);
-  if (clip.borders != nullptr) {
+  if (clipped) {
     program.texture("borders", *clip.borders)
         .texture("picture", clip.picture != nullptr ? *clip.picture : brush)
         .set("colourClip", clip.picture != nullptr ? clip.colour : 0.0F)
         .set("byLuma", clip.byLuma ? 1 : 0)
         .set("targetSize", glm::vec2(size.width, size.height));
   }
-  strips_.draw(program, strips, target);
+  strips_.draw(program, strips, clipped, target);
 }
 
 void StrokeDrawing::show(const marks::StrokeSet& strokes, int quads, std::size_t view,
@@ -114,7 +127,7 @@ void StrokeDrawing::show(const marks::StrokeSet& strokes, int quads, std::size_t
       .set("layer", layer)
       .set("fullSize", glm::vec2(full.width, full.height));
   drawOver(*view_, target, instances_, strokes.instances(), marks::StrokeSet::kInstanceBytes,
-           strokes.command());
+           strokes.command(), 0);
 }
 
 }  // namespace pleinair::styles

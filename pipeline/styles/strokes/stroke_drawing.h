@@ -26,6 +26,7 @@ struct StrokeLight {
 struct StrokeClip {
   /// The borders of what strokes lie on (shaders/borders.glsl), of the target's size; null: none.
   const gpu::Texture* borders = nullptr;
+  bool onlyMovers = false;  ///< the borders are those of movers, which there may be or not
   /// The picture, LINEAR: strokes of models and movers fade where its colour is not theirs
   /// (shaders/colour_clip.glsl); null: nowhere.
   const gpu::Texture* picture = nullptr;
@@ -38,8 +39,9 @@ struct StrokeClip {
 class StripDrawing {
  public:
   StripDrawing();
-  /// Precondition: `program` is in use and filled.
-  void draw(const gpu::Program& program, const StrokeStrips& strips,
+  /// Draws those that are clipped, or those that are not. Precondition: `program` is in use and
+  /// filled.
+  void draw(const gpu::Program& program, const StrokeStrips& strips, bool clipped,
             const gpu::RenderTarget& target) const;
 
  private:
@@ -56,7 +58,8 @@ class StrokeDrawing {
                          std::span<const DebugViewInfo> views = {});
 
   /// Draws a layer into `target`: colour (sRGB-coded, premultiplied) and height, both RGBA8, over
-  /// what is there. `brush` is makeBrush()'s.
+  /// what is there. `brush` is makeBrush()'s. Precondition: they were laid out with the same
+  /// clipping.
   void draw(const StrokeStrips& strips, const gpu::Texture& brush, const StrokeLight& light,
             const StrokeClip& clip, hal::FrameSize full, const gpu::RenderTarget& target);
 
@@ -67,6 +70,10 @@ class StrokeDrawing {
             hal::FrameSize full, const gpu::RenderTarget& target);
 
  private:
+  void drawSome(bool clipped, const StrokeStrips& strips, const gpu::Texture& brush,
+                const StrokeLight& light, const StrokeClip& clip, hal::FrameSize full,
+                const gpu::RenderTarget& target);
+
   std::array<std::array<gpu::Program, 2>, 2> paint_;  // each in the light? clipped?
   std::optional<gpu::Program> view_;
   StripDrawing strips_;

@@ -1,6 +1,7 @@
 #include "pipeline/styles/strokes/stroke_strips.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 
 namespace pleinair::styles {
@@ -45,7 +46,7 @@ StrokeStripMaker::StrokeStripMaker(const gpu::ShaderLibrary& library, StrokeForm
       lay_(library.compute(kShaders + "stroke_strips.comp", definesOf(form))) {}
 
 void StrokeStripMaker::lay(const gpu::Buffer& instances, const gpu::Buffer& drawn,
-                           StrokeQuads quads, StrokeStrips& strips) {
+                           StrokeQuads quads, StrokeStrips& strips, const StripClipping& clipping) {
   const std::size_t slots = instances.sizeBytes() / instanceBytesOf(form_);
   const glm::ivec2 all(static_cast<int>(slots), 1);
   const bool isEven = quads == StrokeQuads::kThesis;
@@ -53,7 +54,7 @@ void StrokeStripMaker::lay(const gpu::Buffer& instances, const gpu::Buffer& draw
   if (!strips.vertices || strips.quads != quads) {
     const std::size_t each = verticesOf(isEven ? even : curvatureQuads(form_));
     strips.plans = gpu::Buffer(slots * kPlanBytes, gpu::BufferUsage::kDynamic);
-    strips.command = gpu::Buffer(gpu::kDrawCommandBytes, gpu::BufferUsage::kDynamic);
+    strips.commands = gpu::Buffer(2 * gpu::kDrawCommandBytes, gpu::BufferUsage::kDynamic);
     strips.vertices = {};
     strips.vertices =
         gpu::Buffer(slots * each * StrokeStrips::kVertexBytes, gpu::BufferUsage::kDynamic);
@@ -67,11 +68,18 @@ void StrokeStripMaker::lay(const gpu::Buffer& instances, const gpu::Buffer& draw
         .set("bend", form_ == StrokeForm::kLong ? kLongBendPx : kBendPx)
         .dispatch(all, GL_SHADER_STORAGE_BARRIER_BIT);
   }
+  // Strokes of even quads are not asked whether they are carried.
+  const bool byMovers = clipping.onlyMovers && !isEven;
+  const std::size_t busyBytes = byMovers ? clipping.onlyMovers->commandBytes : 0;
   offsets_.use()
       .storage("Drawn", drawn)
       .storage("Plans", strips.plans)
-      .storage("Command", strips.command)
+      .storage("Commands", strips.commands)
+      .storage("BusyBlocks", byMovers ? *clipping.onlyMovers->words : drawn)
       .set("even", static_cast<unsigned>(even))
+      .set("clips", clipping.clips ? 1 : 0)
+      .set("byMovers", byMovers ? 1 : 0)
+      .set("busyWord", static_cast<unsigned>(busyBytes / sizeof(std::uint32_t)))
       .dispatch({1, 1}, GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
   lay_.use()
       .storage("Instances", instances)

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "pipeline/gpu/buffer.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/shader_library.h"
+#include "pipeline/marks/busy_blocks.h"
 #include "pipeline/marks/stroke_set.h"
 
 namespace pleinair::styles {
@@ -31,9 +33,19 @@ struct StrokeStrips {
   StrokeQuads quads = StrokeQuads::kCurvature;  ///< that there is room for
   gpu::Buffer plans;
   gpu::Buffer vertices;
-  gpu::Buffer command;  ///< glDrawArraysIndirect's
+  /// glDrawArraysIndirect's, two: of strokes that are not clipped, and of those that are. All are
+  /// the one or the other.
+  gpu::Buffer commands;
 
   static constexpr std::size_t kVertexBytes = 32;  ///< shaders/stroke_strips.comp
+};
+
+/// By what strokes are clipped.
+struct StripClipping {
+  bool clips = false;
+  /// If there is nothing but movers to clip them by: where these are. While there are none, strokes
+  /// are not clipped, which is faster.
+  std::optional<marks::BusyBlocks> onlyMovers = std::nullopt;
 };
 
 /// Lays strokes out as strips of quads along their splines. All calls on the thread of the GL
@@ -49,7 +61,7 @@ class StrokeStripMaker {
   /// allocated at the first call and where `quads` is other than before: hal::Failure where
   /// the GPU has no memory for it.
   void lay(const gpu::Buffer& instances, const gpu::Buffer& drawn, StrokeQuads quads,
-           StrokeStrips& strips);
+           StrokeStrips& strips, const StripClipping& clipping = {});
 
  private:
   StrokeForm form_;

@@ -63,7 +63,9 @@ hal::FrameSize slotTextureSize(std::uint32_t slots) {
 
 CellTiling::CellTiling(const gpu::ShaderLibrary& library)
     : place_(library.compute(kShaders + "seeds.comp")),
-      nearest_(library.compute(kShaders + "tile.comp")),
+      nearest_([&library](const gpu::ShaderDefines& defines) {
+        return library.compute(kShaders + "tile.comp", defines);
+      }),
       move_(library.compute(kShaders + "cells.comp")),
       bins_(library),
       moverGroups_(zeros(sizeof(Groups))) {}
@@ -102,7 +104,7 @@ void CellTiling::placeSeeds(const TilingFrame& input, const marks::AnchorSet& an
   const scene::ArFrame& frame = *input.frame;
   const glm::vec2 pixelsOfFull(frame.pixelsOfFull());
   const float growth = kGrowthCells * static_cast<float>(cellSize_) * pixelsOfFull.x;
-  const Groups groups = groupsOf(nearest_, frame.size());
+  const Groups groups = groupsOf(nearest_.use(frame), frame.size());
   moverGroups_.write(std::as_bytes(std::span(groups)));
   place_.use()
       .storage("Anchors", anchors.anchors())
@@ -128,15 +130,14 @@ void CellTiling::placeSeeds(const TilingFrame& input, const marks::AnchorSet& an
 void CellTiling::findCells(const TilingFrame& input, const WatercolorParameters& p) {
   const scene::ArFrame& frame = *input.frame;
   const hal::FrameSize size = frame.size();
-  nearest_.use()
-      .storage("Starts", bins_.starts())
+  gpu::Program& nearest = nearest_.use(frame);
+  nearest.storage("Starts", bins_.starts())
       .storage("Sums", sums_)
       .storage("Sorted", bins_.sorted())
       .storage("MoverGroups", moverGroups_)
       .image("tiling", *input.tiling, ImageAccess::kWrite)
       .texture("picture", *input.picture)
       .texture("ids", frame.hasObjects ? *frame.ids : *input.tiling)
-      .set("hasObjects", frame.hasObjects ? 1 : 0)
       .texture("movers", layerTextures_.labelsOf(input.movers))
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .set("bins", bins_.bins())
@@ -147,8 +148,9 @@ void CellTiling::findCells(const TilingFrame& input, const WatercolorParameters&
       .set("wantsMeans", input.wantsMeans ? 1 : 0)
       .set("ofMovers", 0)
       .dispatch(gpu::pixelBlocksOf(size), kWritten);
-  if (input.movers != nullptr)
-    nearest_.set("ofMovers", 1).dispatchIndirect(moverGroups_, 0, kWritten);
+  if (input.movers != nullptr) {
+    nearest.set("ofMovers", 1).dispatchIndirect(moverGroups_, 0, kWritten);
+  }
 }
 
 /// `atOnce`: all the way, whatever the time constants.

@@ -14,6 +14,7 @@
 #include "pipeline/marks/anchor_set.h"
 #include "pipeline/marks/layer_textures.h"
 #include "pipeline/marks/point_bins.h"
+#include "pipeline/scene/render/object_programs.h"
 #include "pipeline/styles/watercolor/watercolor_parameters.h"
 
 namespace pleinair::styles {
@@ -83,7 +84,7 @@ class CellTiling {
   void moveSeeds(const TilingFrame& input, const WatercolorParameters& p, bool atOnce);
 
   gpu::Program place_;
-  gpu::Program nearest_;
+  scene::ObjectPrograms nearest_;
   gpu::Program move_;
   marks::PointBins bins_;
   marks::LayerTextures layerTextures_;

@@ -142,28 +142,28 @@ struct Watercolor::Marks {
   int seed = 0;
 };
 
-Watercolor::Watercolor(const gpu::ShaderLibrary& library)
+Watercolor::Watercolor(const gpu::ShaderLibrary& library, SceneContents contents)
     : library_(&library),
       values_(watercolorParameters().defaults()),
       passes_(std::make_unique<Passes>(library)) {
-  warmUp();
+  warmUp(contents);
 }
 
 Watercolor::~Watercolor() = default;
 
 const StyleKind& watercolorKind() {
-  static const StyleKind kKind{
-      .name = "watercolor",
-      .help = "washes of pigment on paper (thesis chapter III, and on)",
-      .defaults = watercolorParameters().defaults(),
-      .looks = watercolorLooks(),
-      .views = kViews,
-      .needs = {.surfaces = true, .measuredMotion = true, .canvas = true},
-      .coherence = {.gates = kGates},
-      .shaders = {gpu::watercolorShaders(), gpu::substrateShaders()},
-      .make = [](const gpu::ShaderLibrary& library) -> std::unique_ptr<Style> {
-        return std::make_unique<Watercolor>(library);
-      }};
+  static const StyleKind kKind{.name = "watercolor",
+                               .help = "washes of pigment on paper (thesis chapter III, and on)",
+                               .defaults = watercolorParameters().defaults(),
+                               .looks = watercolorLooks(),
+                               .views = kViews,
+                               .needs = {.surfaces = true, .measuredMotion = true, .canvas = true},
+                               .coherence = {.gates = kGates},
+                               .shaders = {gpu::watercolorShaders(), gpu::substrateShaders()},
+                               .make = [](const gpu::ShaderLibrary& library,
+                                          SceneContents contents) -> std::unique_ptr<Style> {
+                                 return std::make_unique<Watercolor>(library, contents);
+                               }};
   return kKind;
 }
 
@@ -421,24 +421,31 @@ void Watercolor::showView(const scene::ArFrame& frame, std::string_view view) {
 }
 
 /// A program's real cost on software renderers is at its first use: here, not in the first frame.
-void Watercolor::warmUp() {
+void Watercolor::warmUp(SceneContents contents) {
   Texture grey(TextureFormat::kRgba8, {16, 16}, TextureFilter::kLinear);
   grey.upload(std::array<std::uint8_t, std::size_t{16} * 16 * 4>{}, std::size_t{16} * 4);
-  const scene::ArFrame frame{.colour = &grey};
-  paint(frame, "");
-  paint({.colour = &grey, .normalFocus = &grey, .hasFocus = true, .sequence = 1}, "");
-  paint({.colour = &grey, .sequence = 2}, kViews.front().name);
-  const std::vector<std::uint8_t> noObjects(std::size_t{16} * 16 * 4);
   Texture ids(TextureFormat::kR32ui, grey.size());
-  ids.upload(noObjects, std::size_t{16} * 4);
-  paint({.colour = &grey,
-         .ids = &ids,
-         .barycentrics = &ids,
-         .forms = &ids,
-         .hasObjects = true,
-         .sequence = 3},
-        "");
-  passes_->hiding.warmUp();
+  ids.upload(std::array<std::uint8_t, std::size_t{16} * 16 * 4>{}, std::size_t{16} * 4);
+  const bool hasModels = contents == SceneContents::kModels;
+  scene::ArFrame frame{.colour = &grey,
+                       .ids = &ids,
+                       .normalFocus = &grey,
+                       .barycentrics = &ids,
+                       .forms = &ids,
+                       .sceneHasModels = hasModels};
+  paint(frame, "");
+  ++frame.sequence;
+  paint(frame, kViews.front().name);
+  frame.hasFocus = true;  // as for the look "mosaic"
+  ++frame.sequence;
+  paint(frame, "");
+  frame.hasFocus = false;
+  if (hasModels) {
+    frame.hasObjects = true;
+    ++frame.sequence;
+    paint(frame, "");
+    passes_->hiding.warmUp();
+  }
   canvas_ = previousCanvas_ = nullptr;
   canvases_.clear();
   marks_.reset();

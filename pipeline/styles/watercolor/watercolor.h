@@ -40,7 +40,8 @@ class Watercolor final : public Style {
  public:
   /// The library, which outlives it, holds gpu::watercolorShaders(), substrateShaders(),
   /// marksShaders() and gpu::sceneShaders().
-  explicit Watercolor(const gpu::ShaderLibrary& library);
+  explicit Watercolor(const gpu::ShaderLibrary& library,
+                      SceneContents contents = SceneContents::kModels);
   ~Watercolor() override;
   Watercolor(const Watercolor&) = delete;
   Watercolor& operator=(const Watercolor&) = delete;
@@ -81,7 +82,7 @@ class Watercolor final : public Style {
   void mixWashes();
   void compose(const scene::ArFrame& frame);
   void showView(const scene::ArFrame& frame, std::string_view view);
-  void warmUp();
+  void warmUp(SceneContents contents);
 
   const gpu::ShaderLibrary* library_;
   config::ParameterValues values_;

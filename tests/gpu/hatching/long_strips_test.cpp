@@ -44,7 +44,7 @@ class LongStrips : public HatchingTest {
     StrokeStripMaker maker(library_, StrokeForm::kLong);
     StrokeStrips strips;
     maker.lay(instances, count, StrokeQuads::kCurvature, strips);
-    vertices_ = support::readBuffer<std::uint32_t>(strips.command)[0];
+    vertices_ = support::readBuffer<std::uint32_t>(strips.commands)[0];
     gpu::Texture ink(gpu::TextureFormat::kRgba8, kPage);
     const gpu::RenderTarget target({&ink});
     target.beginDiscarding();
@@ -56,7 +56,7 @@ class LongStrips : public HatchingTest {
         .set("grain", 0.0F)
         .set("scale", 1.0F)
         .set("fullSize", glm::vec2(kPage.width, kPage.height));
-    StripDrawing().draw(program, strips, target);
+    StripDrawing().draw(program, strips, false, target);
     const std::vector<std::uint8_t> bytes = bytesOf(ink);
     std::vector<std::uint8_t> alphas;
     for (std::size_t i = 3; i < bytes.size(); i += 4) alphas.push_back(bytes[i]);

@@ -70,7 +70,7 @@ class ClippedStroke : public StripTest {
     stroke.halfWidth = 10.0F;
     stroke.paint = glm::vec4(glm::vec3(kSkin[0], kSkin[1], kSkin[2]) / 255.0F, 1.0F);
     stroke.label = static_cast<float>(label);
-    lay({stroke});
+    lay({stroke}, StrokeQuads::kCurvature, {.clips = true});
     const gpu::Texture colour(gpu::TextureFormat::kRgba8, kClipped);
     const gpu::Texture height(gpu::TextureFormat::kRgba8, kClipped);
     const gpu::RenderTarget target({&colour, &height});

@@ -47,18 +47,24 @@ TEST_F(PainterlyTest, GivesTheSamePicturesOnEveryRunAndBesideAnother) {
 }
 
 TEST_F(PainterlyTest, CompilesEachProgramOnceWhateverTheLayersLooksAndSizes) {
-  Painterly style(library_);
-  const std::size_t compiled = library_.compiledPrograms();
-  EXPECT_GT(compiled, 20U);
-  for (const Look& look : style.kind().looks) {
-    style.setParameters(style.kind().parametersOf(look.name));
-    for (const hal::FrameSize size : {kSize, hal::FrameSize{96, 72}}) {
-      paint(style, next(0.0, 0.0, size));
-      EXPECT_EQ(library_.compiledPrograms(), compiled) << look.name;
+  std::size_t before = 0;
+  for (const SceneContents contents : {SceneContents::kCameraOnly, SceneContents::kModels}) {
+    Painterly style(library_, contents);
+    const std::size_t compiled = library_.compiledPrograms();
+    EXPECT_GT(compiled, before + 4) << "scenes with models have programs of their own";
+    before = compiled;
+    for (const Look& look : style.kind().looks) {
+      style.setParameters(style.kind().parametersOf(look.name));
+      for (const hal::FrameSize size : {kSize, hal::FrameSize{96, 72}}) {
+        scene::ArFrame frame = next(0.0, 0.0, size);
+        frame.sceneHasModels = contents == SceneContents::kModels;
+        paint(style, frame);
+        EXPECT_EQ(library_.compiledPrograms(), compiled) << look.name;
+      }
     }
+    const Painterly another(library_, contents);
+    EXPECT_EQ(library_.compiledPrograms(), compiled);
   }
-  const Painterly another(library_);
-  EXPECT_EQ(library_.compiledPrograms(), compiled);
 }
 
 TEST_F(PainterlyTest, MakesNoBrushInAPaintedFrame) {

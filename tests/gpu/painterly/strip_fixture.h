@@ -67,7 +67,8 @@ class StripTest : public support::GlTest {
   }
 
   /// Fills strips_; slots are more than there are strokes.
-  void lay(const std::vector<LaidStroke>& strokes, StrokeQuads quads = StrokeQuads::kCurvature) {
+  void lay(const std::vector<LaidStroke>& strokes, StrokeQuads quads = StrokeQuads::kCurvature,
+           const StripClipping& clipping = {}) {
     std::vector<LaidStroke> slots = strokes;
     slots.resize(strokes.size() + 5);
     const auto instances =
@@ -75,13 +76,13 @@ class StripTest : public support::GlTest {
     const std::array<std::uint32_t, 4> command{0, static_cast<std::uint32_t>(strokes.size()), 0, 0};
     const auto drawn =
         gpu::Buffer::of(std::span<const std::uint32_t>(command), gpu::BufferUsage::kDynamic);
-    maker_->lay(instances, drawn, quads, strips_);
+    maker_->lay(instances, drawn, quads, strips_, clipping);
     EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
   }
   std::vector<StripVertex> vertices() const {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     auto all = support::readBuffer<StripVertex>(strips_.vertices);
-    const auto command = support::readBuffer<std::uint32_t>(strips_.command);
+    const auto command = support::readBuffer<std::uint32_t>(strips_.commands);
     EXPECT_EQ(command[1], 1U);
     EXPECT_EQ(command[2], 0U);
     EXPECT_LE(command[0], all.size());

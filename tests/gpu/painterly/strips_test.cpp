@@ -205,5 +205,62 @@ TEST_F(StripsTest, BrushesVariantsAndObjectsAreTold) {
   EXPECT_NEAR(glm::unpackHalf1x16(only(plain)[0].shape[1]), drawn, 2e-3);
 }
 
+/// Which of the two commands draws two strokes, one of this label, with so many busy blocks.
+class StripClippingTest : public StripTest {
+ protected:
+  enum class Drawn { kPlain, kClipped, kWrong };
+  Drawn drawnWith(const StripClipping& clipping, float label = 0.0F,
+                  StrokeQuads quads = StrokeQuads::kCurvature) {
+    LaidStroke other = straightStroke({10.0F, 30.0F}, {60.0F, 30.0F});
+    other.label = label;
+    lay({straightStroke({10.0F, 10.0F}, {60.0F, 10.0F}), other}, quads, clipping);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    const auto commands = support::readBuffer<std::uint32_t>(strips_.commands);
+    if (commands[0] > 8 && commands[4] == 0) return Drawn::kPlain;
+    if (commands[4] > 8 && commands[0] == 0) return Drawn::kClipped;
+    return Drawn::kWrong;
+  }
+  /// `blocks`: how many are busy.
+  StripClipping byMovers(std::uint32_t blocks) {
+    const std::array<std::uint32_t, 4> words{7, 7, blocks, 7};
+    words_ = gpu::Buffer::of(std::span<const std::uint32_t>(words), gpu::BufferUsage::kDynamic);
+    return {.clips = true,
+            .onlyMovers = marks::BusyBlocks{.words = &words_, .commandBytes = 8, .grid = {1, 1}}};
+  }
+
+ private:
+  gpu::Buffer words_;
+};
+
+TEST_F(StripClippingTest, IsPlainWhereThereIsNothingToClipBy) {
+  EXPECT_EQ(drawnWith({}), Drawn::kPlain);
+  EXPECT_EQ(drawnWith({.clips = true}), Drawn::kClipped);
+  EXPECT_EQ(drawnWith(byMovers(0)), Drawn::kPlain);
+  EXPECT_EQ(drawnWith(byMovers(1)), Drawn::kClipped);
+}
+
+TEST_F(StripClippingTest, ClipsWhatAMoverLeavesBehind) {
+  constexpr float kMover = 4093.0F;  // shaders/stroke_label.glsl
+  constexpr float kSegment = 4096.0F;
+  EXPECT_EQ(drawnWith(byMovers(0), kMover), Drawn::kClipped);
+  EXPECT_EQ(drawnWith(byMovers(0), 17.0F), Drawn::kClipped) << "a patch's";
+  EXPECT_EQ(drawnWith(byMovers(0), kSegment), Drawn::kPlain);
+  // These have no plan that would tell.
+  EXPECT_EQ(drawnWith(byMovers(0), 0.0F, StrokeQuads::kThesis), Drawn::kClipped);
+}
+
+TEST_F(StripClippingTest, ChangesNoVertex) {
+  const std::vector<LaidStroke> strokes{arc({20.0F, 20.0F}, 60.0F, 1.5F)};
+  lay(strokes);
+  const std::vector<StripVertex> plain = vertices();
+  std::vector<LaidStroke> carried = strokes;
+  carried[0].label = 4093.0F;
+  lay(carried, StrokeQuads::kCurvature, {.clips = true});
+  const auto commands = support::readBuffer<std::uint32_t>(strips_.commands);
+  EXPECT_EQ(commands[4], plain.size());
+  const auto clipped = support::readBuffer<StripVertex>(strips_.vertices);
+  for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_EQ(clipped[i].at, plain[i].at);
+}
+
 }  // namespace
 }  // namespace pleinair::styles

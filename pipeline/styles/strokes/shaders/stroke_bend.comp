@@ -3,8 +3,9 @@
 // Defines: LONG: stroke_strip.glsl's; it also bends at every other knot, counted
 //          from both ends: it swells as its widths do. If widths chose knots, their noise would be seen.
 // Inputs:  instances, instanceCount of them in drawn; bend: px that a quad's chord may deviate.
-// Outputs: plans: breaks. One invocation per stroke.
+// Outputs: plans: breaks, and whether the stroke is carried, but of LONG ones. One invocation per stroke.
 // Precision: highp.
+#include "pipeline/marks/shaders/stroke_label.glsl"
 #include "pipeline/styles/strokes/shaders/strip_spline.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 1) readonly buffer Drawn { DrawCommand drawn; };
@@ -39,5 +40,8 @@ void main() {
     turn = isOff ? turned : turns;
     before = here;
   }
+#ifndef LONG
+  if (goesByItself(uint(instances[rank].shape.z))) breaks |= kCarried;
+#endif
   plans[rank].breaks = breaks;
 }

@@ -12,9 +12,12 @@
 
 // The knots at which a stroke's strip is divided into quads, and its first vertex.
 struct StripPlan {
-  uint breaks;  // bit i: at the spline's i-th knot
+  uint breaks;  // bit i: at the spline's i-th knot; kCarried
   uint first;
 };
+const uint kCarried = 1u << 31u;  // the stroke lies on a model or a mover
+
+uint breaksOf(StripPlan plan) { return plan.breaks & ~kCarried; }
 
 // Each strip's first and last vertex are doubled, which joins all strips into one.
 uint stripVertices(uint quads) { return 2u * quads + 4u; }

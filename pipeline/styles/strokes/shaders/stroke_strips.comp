@@ -61,7 +61,7 @@ void main() {
   made.label = uint(shape.z);
 #endif
   uint next = plan.first;
-  uint breaks = plan.breaks;
+  uint breaks = breaksOf(plan);
   uint quads = even > 0u ? even : 1u + uint(bitCount(breaks));
   for (uint i = 0u; i <= quads; ++i) {
     float s = float(kSplineSpans);

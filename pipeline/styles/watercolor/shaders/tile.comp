@@ -3,6 +3,7 @@
 //          its mean colour and its next tiling. Movers have cells of their own: all else is tiled
 //          first, then they. One invocation does a block of 4x4 pixels and adds once per cell in the
 //          block.
+// Defines: has_objects.glsl's.
 // Inputs:  picture (sRGB-coded), ids (R32UI) if hasObjects; sorted, starts, bins, binPixels: the
 //          seeds (seed_point.glsl, marks/point_bins.h); moverGroups (seeds.comp), mover_labels.glsl's
 //          and pixelsOfFull; ofMovers: whether movers are tiled, or all else; alpha, beta, threshold;
@@ -16,6 +17,7 @@
 #include "pipeline/gpu/shaders/pixel_block.glsl"
 #include "pipeline/marks/shaders/mover_labels.glsl"
 #include "pipeline/marks/shaders/point_bins.glsl"
+#include "pipeline/scene/render/shaders/has_objects.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/styles/watercolor/shaders/cell_sums.glsl"
 #include "pipeline/styles/watercolor/shaders/seed_point.glsl"
@@ -28,7 +30,6 @@ layout(std430, binding = 3) readonly buffer MoverGroups { uint moverGroups[]; };
 layout(binding = 0, r32ui) writeonly uniform highp uimage2D tiling;
 uniform sampler2D picture;
 uniform highp usampler2D ids;
-uniform bool hasObjects;
 uniform float alpha;
 uniform float beta;
 uniform float threshold;
