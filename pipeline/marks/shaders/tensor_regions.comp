@@ -129,7 +129,15 @@ void main() {
   Edge mover = kNoEdge;
   Surface surface = Surface(vec2(0.0), vec2(0.0), vec3(0.0), vec4(0.0), 0.0, 0.0);
   float hidden = 0.0;  // by virtual objects
-  for (int y = low.y; y < high.y; ++y) {
+  // Two loops in place of a branch, of which software renderers run both sides; of a loop that no
+  // invocation enters they run one round.
+  bool isPlain = near == 0.0 && !hasObjects && !(hasSurfaces && hasPast);
+  for (int y = isPlain ? low.y : high.y; y < high.y; ++y) {
+    for (int x = low.x; x < high.x; ++x) {
+      add(ground, texelFetch(tensors, ivec2(x, y), 0).xy, 1.0, threshold);
+    }
+  }
+  for (int y = isPlain ? high.y : low.y; y < high.y; ++y) {
     for (int x = low.x; x < high.x; ++x) {
       if (hasObjects && isVirtual(objectOf(texelFetch(ids, ivec2(x, y), 0).r))) {
         hidden += 1.0;
