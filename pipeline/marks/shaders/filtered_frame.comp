@@ -91,8 +91,8 @@ void main() {
   from = isKnown ? from : vec2(0.0);
   trust = isKnown ? trustOf(moved.z * pixelsOfFull.x) : 0.0;
 
-  // Two loops in place of a branch: software renderers run both of its sides, but skip a loop that
-  // no invocation enters.
+  // Two loops in place of a branch, of which software renderers run both sides; of a loop that no
+  // invocation enters they run one round.
   bool isOnPixels = from == floor(from);
   for (int i = isOnPixels ? 0 : kBlockPixels; i < kBlockPixels; ++i) {
     ivec2 p = corner + inBlock(i);

@@ -72,7 +72,7 @@ SegmentBorder segmentBorderAt(vec2 px, highp sampler2D picture, vec2 place) {
   uint here = cellAt(middle);
   uint label = segmentOf(here);
   SegmentBorder border = SegmentBorder(label, label, 1.0);
-  // Loops that no invocation enters cost nothing on software renderers.
+  // Where no invocation enters it, software renderers run one round of this loop and of those inside.
   bool isInside = (here >> 12u & 1u) != 0u;
   for (int once = isInside ? 1 : 0; once < 1; ++once) {
     vec3 own = lumaAndChroma(colourAround(picture, place));

@@ -42,8 +42,7 @@ void main() {
   vec3 contourInk = mix(inkColour, texelFetch(colours, p, 0).rgb, 0.5 * colour);
   float amount = 1.0 - (1.0 - lines.a) * (1.0 - contour);
   vec3 colour = (lines.rgb * (1.0 - contour) + contourInk * contour) / max(amount, 1e-4);
-  // A loop that no invocation enters costs nothing on software renderers.
-  for (int i = tooth > 0.0 ? 0 : 1; i < 1; ++i) {
+  if (tooth > 0.0) {
     float moving = movingAt(gl_FragCoord.xy / pixelsOfFull);
     amount *= caught(mix(paper_.r, 0.5, moving), amount);
   }

@@ -29,8 +29,8 @@ void main() {
   vec3 seen = texture(paint, gl_FragCoord.xy / size).rgb;
   float moving = movingAt(gl_FragCoord.xy / pixelsOfFull);
   float bare = 1.0 - wash;
-  // At a mover's border all or nothing, as strokes (stroke_clip.glsl): as farther inside. A loop that
-  // no invocation enters costs nothing on software renderers.
+  // At a mover's border all or nothing, as strokes (stroke_clip.glsl): as farther inside. A loop of
+  // several rounds, of which software renderers run one where no invocation enters it.
   uint border = hasBorders ? texelFetch(borders, ivec2(gl_FragCoord.xy), 0).r : 0u;
   if (isMoverBorder(border) && !isMover(ownOf(border))) moving = 0.0;
   for (int i = isMoverBorder(border) && isMover(ownOf(border)) ? 0 : 4; i < 4; ++i) {
@@ -38,7 +38,7 @@ void main() {
     vec2 aside = i % 2 == 0 ? vec2(along, 0.0) : vec2(0.0, along);
     moving = max(moving, movingAt(gl_FragCoord.xy / pixelsOfFull + aside));
   }
-  for (int i = moving > 0.0 ? 0 : 1; i < 1; ++i) {
+  if (moving > 0.0) {
     vec4 mover = texture(moverPaint, gl_FragCoord.xy / size);
     if (mover.a > 0.0) seen = mix(seen, mover.rgb / mover.a, moving);
     bare = mix(bare, min(bare, kMostBare), moving);

@@ -70,8 +70,7 @@ void main() {
   vec4 substrate = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
   // The canvas goes with the camera's image: a model would glide over its threads.
   lit += (isModel ? 0.0 : weave) * (1.0 - 0.7 * here) * (2.0 * substrate.g - 1.0);
-  // A loop that no invocation enters costs nothing on software renderers.
-  for (int i = tooth > 0.0 ? 0 : 1; i < 1; ++i) {
+  if (tooth > 0.0) {
     float bare = 1.0 - caught(substrate.r, texelFetch(heights, p, 0).g);
     bare *= tooth * (1.0 - moving);
     rgb = mix(rgb, ground, bare * (1.0 - wash));

@@ -128,7 +128,7 @@ uint borderAt(ivec2 p) {
   bool mayBeObject = isNearObjects(vec2(p) + 0.5);
 #endif
   // Labels of movers are half as fine as the full image: where one is exactly 0 or 1, so it is all
-  // around. A loop that no invocation enters costs nothing on software renderers.
+  // around. Of a loop that no invocation enters, software renderers run one round.
   vec3 movers = sharesOf(p);
   float mover = max(movers.r, max(movers.g, movers.b));
   Around around = Around(mayBeObject,

@@ -21,8 +21,7 @@ const vec2 kClearAtBorder = vec2(0.3, 0.5);
 
 float shareOfColour(vec3 rgb, bool isCarried, bool isAtBorder) {
   float share = 1.0;
-  // A loop that no invocation enters costs nothing on software renderers.
-  for (int i = isCarried && colourClip > 0.0 ? 0 : 1; i < 1; ++i) {
+  if (isCarried && colourClip > 0.0) {
     vec3 seen = texture(picture, gl_FragCoord.xy / targetSize).rgb;
     vec3 other = byLuma ? vec3(lumaOf(rgb - seen)) : rgb - seen;
     vec2 clear = isAtBorder ? kClearAtBorder : kClear;
