@@ -110,13 +110,14 @@ void StrokeSet::State::carryWithObjects(const scene::ArFrame& frame, const Ancho
 }
 
 gpu::Program& StrokeSet::State::traceOf(const scene::ArFrame& frame, const gpu::Texture* borders) {
-  const std::string shader = kShaders + "stroke_trace.comp";
-  if (!frame.mayHaveObjects() && borders == nullptr) {
-    if (!traceMoversOnly) traceMoversOnly = library.compute(shader, {{"MOVERS_ONLY"}});
-    return *traceMoversOnly;
+  const bool knowsAll = frame.mayHaveObjects() || borders != nullptr;
+  std::optional<gpu::Program>& program = knowsAll ? trace : traceMoversOnly;
+  if (!program) {
+    program =
+        library.compute(kShaders + "stroke_trace.comp",
+                        knowsAll ? gpu::ShaderDefines{} : gpu::ShaderDefines{{"MOVERS_ONLY"}});
   }
-  if (!trace) trace = library.compute(shader);
-  return *trace;
+  return *program;
 }
 
 void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchors,
@@ -190,7 +191,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("imageScale", static_cast<float>(anchors.imageScale()))
       .set("focalPx", frame.surfaces ? focalOf(*frame.surfaces, frame) : 0.0F)
       .set("layer", glm::vec2(rule.layer, rule.layers));
-  if (&program != (traceMoversOnly ? &*traceMoversOnly : nullptr)) {
+  if (program.hasUniform("hasObjects")) {
     program.set("hasLabels", borders != nullptr || frame.hasObjects ? 1 : 0)
         .set("hasSegments", borders != nullptr ? 1 : 0)
         .set("hasObjects", frame.hasObjects ? 1 : 0);
