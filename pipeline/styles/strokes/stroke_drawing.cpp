@@ -60,7 +60,6 @@ void drawOver(const gpu::Program& program, const gpu::RenderTarget& target,
   glBindVertexBuffer(0, vertices.name(), 0, stride);
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.name());
   const gpu::PassTimer::Scope scope = program.measure();
-  // NOLINTNEXTLINE(performance-no-int-to-ptr): an offset, as GL has it
   glDrawArraysIndirect(GL_TRIANGLE_STRIP,
                        reinterpret_cast<const void*>(command * gpu::kDrawCommandBytes));
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);

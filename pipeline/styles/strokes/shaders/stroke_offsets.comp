@@ -3,8 +3,8 @@
 //          every strip; clips: whether strokes are clipped; byMovers: if so, by movers alone;
 //          busyWord: then the word of busyWords (marks/busy_blocks.h) that tells whether there are any.
 // Outputs: plans: first; commands: glDrawArraysIndirect's of what is not clipped and of what is:
-//          all strokes are the one or the other. A movers' border and a stroke that movers have
-//          carried may outlive them by a frame.
+//          all strokes are the one or the other. A stroke that a mover has carried may outlive it: while
+//          there is one, strokes are clipped.
 // Precision: integers.
 #include "pipeline/styles/strokes/shaders/stroke_strip.glsl"
 layout(local_size_x = 128) in;
