@@ -95,9 +95,10 @@ struct Pass {
 };
 
 /// The passes for which the code of a file names targets; their shaders lie in "shaders" beside it.
+/// Where their defines are a variable, those without any.
 std::vector<Pass> passesWithTargets(const fs::path& root, const fs::path& file) {
   static const std::regex kCall(
-      R"re(fragmentPass\([^"()]*"([^"]+)",\s*\{(?:\{"(\w+)"\})?\},\s*\{([^}]*)\}\))re");
+      R"re(fragmentPass\([^"()]*"([^"]+)",\s*(?:defines|\{(?:\{"(\w+)"\})?\}),\s*\{([^}]*)\}\))re");
   std::ifstream stream(file);
   const std::string code{std::istreambuf_iterator<char>(stream), {}};
   std::vector<Pass> passes;

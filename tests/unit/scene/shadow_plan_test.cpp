@@ -77,7 +77,7 @@ TEST(CoarseTriangles, AreFewAndWhereTheModelIs) {
   }
   const double cell = boundingSphere(gearbox).radiusMetres / 28.0;
   const auto coarse = coarseTriangles(drawn, rest, cell);
-  EXPECT_LT(coarse.size(), drawn.indices.size() / 4);
+  EXPECT_LT(coarse.size(), drawn.indices.size() / 3);
   EXPECT_GT(coarse.size(), 3 * 500u);
   glm::vec3 low(1e9F), high(-1e9F), coarseLow(1e9F), coarseHigh(-1e9F);
   for (const glm::vec3& each : rest) {
