@@ -30,7 +30,7 @@ struct Look {
   std::string_view toml;  ///< a table of the style's parameters, as in a configuration file
 };
 
-/// What the frames of a style may show, for which it is warmed up.
+/// The contents of the frames that a style is to paint: it is warmed up for them.
 enum class SceneContents { kCameraOnly, kModels };
 
 /// The descriptor of a style: all that is known of it without a GPU, and how to make it. Each

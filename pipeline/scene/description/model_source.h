@@ -36,9 +36,9 @@ struct FileSource {
 using ModelSource =
     std::variant<BoxSource, GearSource, GearboxSource, TubeSource, BallSource, FileSource>;
 
-/// Loads or makes the model, simplified (simplified_model.h). Errors: those of readGltf() and readMeshFile(),
-/// for files only. Preconditions: faultOf()
-/// a gear is nothing; a gearbox has numbers of teeth in range.
+/// Loads or makes the model, simplified (simplified_model.h). Errors: those of readGltf() and
+/// readMeshFile(), for files only. Preconditions: faultOf() a gear is nothing; a gearbox has
+/// numbers of teeth in range.
 hal::Result<Model> modelOf(const ModelSource& source);
 
 /// Whether the source's materials have colours. Other models are white and take the scene's colour.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -17,6 +16,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/packing.hpp>
+#include <meshoptimizer.h>
 
 #include "pipeline/scene/models/declared_directions.h"
 #include "pipeline/scene/models/surface_form.h"
@@ -57,22 +57,19 @@ bool isMirrored(const ModelPart& part) {
 /// equal vertices that move differently stay separate.
 std::vector<std::uint32_t> firstEqualVertices(const Mesh& mesh) {
   static_assert(sizeof(MeshVertex) == 12 * sizeof(float));  // all bytes are compared
-  std::vector<std::uint32_t> first(mesh.vertices.size());
-  std::iota(first.begin(), first.end(), 0U);
-  if (!mesh.joints.empty() || !mesh.morphTargets.empty()) return first;
-  const auto order = [&](std::uint32_t a, std::uint32_t b) {
-    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bits that differ are other vertices
-    return std::memcmp(&mesh.vertices[a], &mesh.vertices[b], sizeof(MeshVertex));
-  };
-  std::vector<std::uint32_t> sorted = first;
-  std::ranges::sort(sorted, [&](std::uint32_t a, std::uint32_t b) {
-    const int found = order(a, b);
-    return found != 0 ? found < 0 : a < b;
-  });
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    if (order(sorted[i - 1], sorted[i]) == 0) first[sorted[i]] = first[sorted[i - 1]];
+  const std::size_t count = mesh.vertices.size();
+  std::vector<std::uint32_t> alike(count);
+  std::iota(alike.begin(), alike.end(), 0U);
+  if (count == 0 || !mesh.joints.empty() || !mesh.morphTargets.empty()) return alike;
+  const std::size_t different = meshopt_generateVertexRemap(
+      alike.data(), nullptr, count, mesh.vertices.data(), count, sizeof(MeshVertex));
+  std::vector<std::uint32_t> first(different, kNoVertex);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint32_t& known = first[alike[i]];
+    if (known == kNoVertex) known = static_cast<std::uint32_t>(i);
+    alike[i] = known;
   }
-  return first;
+  return alike;
 }
 
 /// Rotates each triangle, if possible, so that its last vertex is the last vertex of no other.

@@ -17,7 +17,7 @@ namespace pleinair::scene {
 /// models or it has none. On the thread of the GL context.
 class ObjectPrograms {
  public:
-  /// What `make` refers to, such as a ShaderLibrary, outlives this.
+  /// `make` makes a variant. The ShaderLibrary that it refers to outlives this.
   explicit ObjectPrograms(std::function<gpu::Program(const gpu::ShaderDefines&)> make)
       : make_(std::move(make)) {}
 
