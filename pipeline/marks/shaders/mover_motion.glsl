@@ -22,7 +22,7 @@ bool findMoverMotion(vec2 px, int number, out vec2 displacement) {
   for (int y = first.y; y <= last.y; ++y) {
     for (int x = first.x; x <= last.x; ++x) {
       vec2 away = vec2(x, y) - at;
-      sum += exp(-0.7 * dot(away, away)) * texelFetch(moverMotion, ivec2(x, row + y), 0).xyz;
+      sum += exp(-1.5 * dot(away, away)) * texelFetch(moverMotion, ivec2(x, row + y), 0).xyz;
     }
   }
   displacement = sum.xy / max(sum.z, 1e-6);

@@ -27,13 +27,13 @@ uniform float noise;
 uniform int arms;  // 4, the places around; a uniform, so that compilers keep the loop over them
 
 const float kArm = 2.0 * kLayerCellPixels;  // px, of central differences
-const vec2 kContrast = vec2(0.03, 0.1);     // over two arms: from no edge to a clear one
-const vec2 kNoisyContrast = vec2(5.0, 15.0);  // the same in deviations of noise, if that is more
+const vec2 kContrast = vec2(0.004, 0.03);  // over two arms: from no edge to a clear one
+const vec2 kNoisyContrast = vec2(2.5, 8.0);  // the same in deviations of noise, if that is more
 const float kSlope = 0.3;                   // of shares over two arms: an outline
 const float kWithin = 0.95;                 // of a mover's share: surely within it
 const float kAnother = 0.25;                // of other movers' shares: the outline may be theirs
 const float kFarthest = 4.0;                // px of displacement in one step
-const float kSilhouette = 0.15;             // weight of a cell of the outline: labels err by a pixel
+const float kSilhouette = 0.17;             // weight of a cell of the outline: labels err by a pixel
 const float kColour = 2.0;                  // weight of a clear edge within
 
 // The shares of a mover and of all others of the four cells around the lower right corner of a

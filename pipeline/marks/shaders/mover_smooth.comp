@@ -9,7 +9,7 @@ layout(rgba16f, binding = 0) writeonly uniform highp image2D moverMotion;
 uniform highp sampler2D found;
 
 const int kReach = 3;      // blocks
-const float kAlike = 2.0;  // px: at this difference, a block counts half
+const float kAlike = 1.0;  // px: at this difference, a block counts half
 
 vec4 smoothAt(ivec2 block, ivec2 size, int row) {
   vec4 own = texelFetch(found, ivec2(block.x, row + block.y), 0);

@@ -36,31 +36,40 @@ class MoverRegistration : public MotionLayersTest {
            std::abs(px.x - pose.limb) < kHalfLimb + more;
   }
 
-  /// The mover goes from the last pose to this one. Of that of the body, flow says the given share,
-  /// on the limb as on the body.
-  void seePose(const Pose& pose, double share) {
+  /// Dense flow that says `said` where a mover was or is, and nothing elsewhere; until the next
+  /// call.
+  template <class IsThere>
+  tracking::ImageMotion flowOf(IsThere wasThere, IsThere isThere, glm::vec2 said) {
     constexpr hal::FrameSize kNodes{40, 30};
     constexpr double kNodePx = 8.0;
     constexpr float kErrorPx = 0.1F;
-    constexpr double kBleeding = 8.0;
-    const Pose last = last_.value_or(pose);
-    const glm::vec2 said(share * (pose.body - last.body), 0.0);
-    std::vector<glm::vec4> forward;
-    std::vector<glm::vec4> backward;
+    forward_.clear();
+    backward_.clear();
     for (int y = 0; y < kNodes.height; ++y) {
       for (int x = 0; x < kNodes.width; ++x) {
         const glm::dvec2 px = kNodePx * (glm::dvec2(x, y) + 0.5);
-        const auto isMover = [&](const Pose& there) {
-          return isBody(there, px, kBleeding) || isLimb(there, px, kBleeding);
-        };
-        forward.emplace_back(isMover(last) ? said : glm::vec2(0.0F), kErrorPx, 0.0F);
-        backward.emplace_back(isMover(pose) ? -said : glm::vec2(0.0F), kErrorPx, 0.0F);
+        forward_.emplace_back(wasThere(px) ? said : glm::vec2(0.0F), kErrorPx, 0.0F);
+        backward_.emplace_back(isThere(px) ? -said : glm::vec2(0.0F), kErrorPx, 0.0F);
       }
     }
     tracking::ImageMotion motion = panning(0.0, 0.0);
     motion.picture->errorPx = 1.0;
     motion.flow = {
-        .nodes = kNodes, .stepPx = glm::vec2(kNodePx), .forward = forward, .backward = backward};
+        .nodes = kNodes, .stepPx = glm::vec2(kNodePx), .forward = forward_, .backward = backward_};
+    return motion;
+  }
+
+  /// The mover goes from the last pose to this one. Of that of the body, flow says the given share,
+  /// on the limb as on the body.
+  void seePose(const Pose& pose, double share) {
+    constexpr double kBleeding = 8.0;
+    const Pose last = last_.value_or(pose);
+    const auto reaches = [](const Pose& there) {
+      return [there](glm::dvec2 px) {
+        return isBody(there, px, kBleeding) || isLimb(there, px, kBleeding);
+      };
+    };
+    const glm::vec2 said(share * (pose.body - last.body), 0.0);
     hal::Image image = seen({}, kSize, ++noise_);
     for (int y = 0; y < kSize.height; ++y) {
       for (int x = 0; x < kSize.width; ++x) {
@@ -72,8 +81,32 @@ class MoverRegistration : public MotionLayersTest {
         p[2] = 30;
       }
     }
-    seeImage(image, motion);
+    seeImage(image, flowOf(reaches(last), reaches(pose), said));
     last_ = pose;
+  }
+
+  /// A body as high as the picture, of a soft, faint pattern, has come to `middle` from `last`.
+  /// Flow knows how it goes sideways; nothing but its pattern shows how it rises and falls.
+  void seeSoftBody(glm::dvec2 middle, glm::dvec2 last) {
+    constexpr double kBleeding = 8.0;
+    constexpr double kAmplitude = 3.0;  // levels
+    constexpr double kWaves = 2.0 * 3.14159265 / 40.0;
+    const auto reaches = [](double x) {
+      return [x](glm::dvec2 px) { return std::abs(px.x - x) < kHalfBody + kBleeding; };
+    };
+    hal::Image image = seen({}, kSize, ++noise_);
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) {
+        const glm::dvec2 at = glm::dvec2(x, y) - middle;
+        if (std::abs(at.x) >= kHalfBody) continue;
+        const double tone = kAmplitude * (std::sin(kWaves * at.x) + std::sin(kWaves * at.y));
+        std::uint8_t* const p = image.row(0, y).data() + std::ptrdiff_t{4} * x;
+        p[0] = static_cast<std::uint8_t>(std::lround(200.0 + tone));
+        p[1] = static_cast<std::uint8_t>(std::lround(60.0 + tone));
+        p[2] = static_cast<std::uint8_t>(std::lround(40.0 + tone));
+      }
+    }
+    seeImage(image, flowOf(reaches(last.x), reaches(middle.x), {middle.x - last.x, 0.0}));
   }
 
   /// The displacement of the mover that is nearest to a place.
@@ -92,6 +125,8 @@ class MoverRegistration : public MotionLayersTest {
   }
 
  private:
+  std::vector<glm::vec4> forward_;
+  std::vector<glm::vec4> backward_;
   std::optional<Pose> last_;
   unsigned noise_ = 0;
 };
@@ -151,6 +186,27 @@ TEST_F(MoverRegistration, ALimbGoesByItself) {
   }
   EXPECT_LT(off, 0.35 * swing) << "as far off as the body's motion: 1";
   EXPECT_LT(worstBody, 1.0);
+}
+
+/// A walker's clothes show how the trunk rises and falls with each step, faint as they are.
+TEST_F(MoverRegistration, AFaintPatternIsFollowed) {
+  constexpr int kFirst = 8;
+  constexpr int kLast = 36;
+  const auto placeOf = [](int frame) {
+    return glm::dvec2(70.0 + 4.0 * frame, 100.0 + 5.0 * std::sin(0.45 * frame));
+  };
+  for (int i = 0; i < 6; ++i) see({});
+  double off = 0.0;
+  double rise = 0.0;
+  for (int i = 0; i <= kLast; ++i) {
+    const glm::dvec2 last = placeOf(std::max(i - 1, 0));
+    seeSoftBody(placeOf(i), last);
+    if (i < kFirst) continue;
+    const double truth = placeOf(i).y - last.y;
+    off += std::abs(motionAt({placeOf(i).x, 120.0}).y - truth);
+    rise += std::abs(truth);
+  }
+  EXPECT_LT(off, 0.31 * rise) << "if it only went sideways: 1";
 }
 
 }  // namespace
