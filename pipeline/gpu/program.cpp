@@ -279,14 +279,30 @@ void Program::drawArea(const RenderTarget& target, glm::ivec2 origin, hal::Frame
   drawTriangle();
 }
 
-void Program::drawTriangle() {
+void Program::drawAreaIndirect(const RenderTarget& target, glm::ivec2 origin,
+                               hal::FrameSize size, const Buffer& command) {
+  assert(linked_->targets.empty() && command.sizeBytes() >= kDrawCommandBytes);
+  assert(origin.x >= 0 && origin.y >= 0 && origin.x + size.width <= target.size().width &&
+         origin.y + size.height <= target.size().height);
+  target.beginKeeping();
+  glViewport(origin.x, origin.y, size.width, size.height);
+  drawTriangle(&command);
+}
+
+void Program::drawTriangle(const Buffer* command) {
   assert(isCurrent(linked_->handle));
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   glBindVertexArray(linked_->emptyVertexArray.get());
   const PassTimer::Scope scope = measure();
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  if (command == nullptr) {
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  } else {
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, command->name());
+    glDrawArraysIndirect(GL_TRIANGLES, nullptr);
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+  }
   glBindVertexArray(0);
 }
 

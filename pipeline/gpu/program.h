@@ -100,6 +100,11 @@ class Program {
   void drawFullscreen(const RenderTarget& target);
   /// Runs the pass over a part of `target` only and keeps the rest. Not in its compute form.
   void drawArea(const RenderTarget& target, glm::ivec2 origin, hal::FrameSize size);
+  /// The same where the GPU finds that there is something to draw: `command` is
+  /// glDrawArraysIndirect's (shaders/draw_command.glsl), of 3 vertices and one instance or none,
+  /// written before with GL_COMMAND_BARRIER_BIT among its barriers.
+  void drawAreaIndirect(const RenderTarget& target, glm::ivec2 origin, hal::FrameSize size,
+                        const Buffer& command);
   /// Runs a compute program over `items` invocations, rounded up to whole groups (at most
   /// kMaxGroups along each axis), then makes its writes visible to what `barriers`
   /// (GL_*_BARRIER_BIT) names.
@@ -118,7 +123,8 @@ class Program {
   };
   struct Linked;
 
-  void drawTriangle();
+  /// Draws as many as the command says, one without.
+  void drawTriangle(const Buffer* command = nullptr);
   const Input& input(ShaderInput::Kind kind, std::string_view name) const;
   /// Asserts that the program is the current one; -1 for a uniform that the compiler removed.
   GLint location(std::string_view uniform, std::string_view type) const;

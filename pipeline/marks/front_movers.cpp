@@ -25,6 +25,7 @@ struct GpuFootprints {
 };
 
 constexpr GLbitfield kStored = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
+constexpr std::array<GLuint, 4> kHidesNothing{3, 0, 0, 0};  // as shaders/draw_command.glsl
 
 }  // namespace
 
@@ -34,7 +35,9 @@ struct FrontMovers::State {
         show(library.compute("pipeline/marks/shaders/front_labels.comp")),
         labels(TextureFormat::kRgba16f, size, TextureFilter::kLinear),
         shares(TextureFormat::kRgba8, size, TextureFilter::kLinear),
-        footprints(sizeof(GpuFootprints), gpu::BufferUsage::kDynamic) {
+        footprints(sizeof(GpuFootprints), gpu::BufferUsage::kDynamic),
+        hiding(gpu::kDrawCommandBytes, gpu::BufferUsage::kDynamic) {
+    seen = gpu::RenderTarget({&labels, &shares});
     for (std::size_t i = 0; i < 2; ++i) {
       fronts.at(i) = {TextureFormat::kRgba16f, size, TextureFilter::kLinear};
       targets.at(i) = gpu::RenderTarget({&fronts.at(i)});
@@ -50,7 +53,9 @@ struct FrontMovers::State {
   std::array<gpu::RenderTarget, 2> targets;  // of fronts
   gpu::Texture labels;
   gpu::Texture shares;
+  gpu::RenderTarget seen;  // both of them
   gpu::Buffer footprints;
+  gpu::Buffer hiding;  // the command that hides models: drawn where front_movers.comp says so
   GpuFootprints staged;
   std::size_t now = 0;
   bool hasPast = false;
@@ -85,8 +90,9 @@ void FrontMovers::State::spread(const scene::ArFrame& frame, const gpu::Texture&
       .set("hasPast", hasPast ? 1 : 0)
       .set("passed", passed)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+      .storage("Hiding", hiding)
       .image("front", fronts.at(now), ImageAccess::kWrite);
-  blocks.dispatch(find, kStored);
+  blocks.dispatch(find, kStored | GL_COMMAND_BARRIER_BIT);
   hasPast = true;
 }
 
@@ -101,9 +107,12 @@ void FrontMovers::update(const scene::ArFrame& frame, const gpu::Texture& moverL
   State& s = *state_;
   assert(frame.hasObjects && moverLabels.size() == s.labels.size());
   s.write(frame);
+  s.hiding.write(std::as_bytes(std::span(kHidesNothing)));
   s.spread(frame, moverLabels, blocks, isStanding, stepSeconds / kStaysSeconds);
   // Again, so that a fast mover is found as a whole within a few frames.
   s.spread(frame, moverLabels, blocks, false, 0.0F);
+  s.seen.beginDiscarding();
+  for (const int each : {0, 1}) s.seen.clearColour(each, glm::vec4(0.0F));
   s.show.use()
       .texture("labels", moverLabels)
       .texture("shares", moverShares)
@@ -111,8 +120,8 @@ void FrontMovers::update(const scene::ArFrame& frame, const gpu::Texture& moverL
       .texture("ids", *frame.ids)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .image("seenLabels", s.labels, ImageAccess::kWrite)
-      .image("seenShares", s.shares, ImageAccess::kWrite)
-      .dispatch({s.labels.size().width, s.labels.size().height}, kStored);
+      .image("seenShares", s.shares, ImageAccess::kWrite);
+  blocks.dispatch(s.show, kStored);
 }
 
 void FrontMovers::reset() {
@@ -121,6 +130,10 @@ void FrontMovers::reset() {
 
 const gpu::Texture& FrontMovers::front() const {
   return state_->fronts.at(state_->now);
+}
+
+scene::ModelCover FrontMovers::cover() const {
+  return {.places = &front(), .command = &state_->hiding};
 }
 
 const gpu::Texture& FrontMovers::seenLabels() const {

@@ -7,6 +7,7 @@
 #include "pipeline/gpu/texture.h"
 #include "pipeline/marks/busy_blocks.h"
 #include "pipeline/scene/render/ar_frame.h"
+#include "pipeline/scene/render/model_hiding.h"
 
 namespace pleinair::marks {
 
@@ -41,6 +42,8 @@ class FrontMovers {
   /// before the models, 0 for all others. G: 1 where models are to be hidden
   /// (scene::ModelHiding).
   const gpu::Texture& front() const;
+  /// The same, for scene::ModelHiding.
+  scene::ModelCover cover() const;
   /// The labels of what is seen: 0 where a virtual model is and remains.
   const gpu::Texture& seenLabels() const;
   /// The same of MotionLayers::shares().

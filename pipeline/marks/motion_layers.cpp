@@ -454,8 +454,9 @@ BusyBlocks MotionLayers::busyBlocks() const {
   return state_->busyBlocks();
 }
 
-const gpu::Texture* MotionLayers::front() const {
-  return state_->hasFront ? &state_->front.front() : nullptr;
+std::optional<scene::ModelCover> MotionLayers::cover() const {
+  if (!state_->hasFront) return std::nullopt;
+  return state_->front.cover();
 }
 
 const gpu::Texture& MotionLayers::background() const {

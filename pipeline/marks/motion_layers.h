@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 
 #include "hal/clock.h"
 #include "hal/image.h"
@@ -10,6 +11,7 @@
 #include "pipeline/marks/busy_blocks.h"
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/scene/render/ar_frame.h"
+#include "pipeline/scene/render/model_hiding.h"
 
 namespace pleinair::marks {
 
@@ -67,9 +69,9 @@ class MotionLayers {
   /// RGBA8, LINEAR, as large: R, G, B: 1 where the movers 1, 2, 3 are. Their sum is R of labels().
   const gpu::Texture& shares() const;
   static constexpr int kMostMovers = 3;
-  /// FrontMovers::front(): where virtual models are to be hidden, since a mover is before them.
-  /// Null if the last frame had no models.
-  const gpu::Texture* front() const;
+  /// Where virtual models are to be hidden, since a mover is before them (FrontMovers). Nothing if
+  /// the last frame had no models.
+  std::optional<scene::ModelCover> cover() const;
   /// RGBA16F, LINEAR, as large: the background's mean colour, sRGB-coded, also behind movers; and
   /// the number of frames in it, 0 where it was never seen.
   const gpu::Texture& background() const;

@@ -1,7 +1,10 @@
 #include "pipeline/measure/model_anchors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include <opencv2/core.hpp>
 
 #include "pipeline/measure/input/picture.h"
 #include "pipeline/measure/output_measures.h"
@@ -9,6 +12,31 @@
 namespace pleinair::measure {
 
 using marks::Anchor;
+
+namespace {
+
+/// By which part the area of what is within `rect`, and followed, changes on the screen.
+double growthOf(const MotionMap& motion, const cv::Rect& rect) {
+  constexpr float kMost = 2;  // of a place: beside what comes before it, it is not smooth
+  if (motion.shift) return 0;
+  double before = 0, after = 0;
+  for (int y = rect.y; y + 1 < rect.br().y; ++y) {
+    for (int x = rect.x; x + 1 < rect.br().x; ++x) {
+      const bool isSeen = motion.valid(y, x) != 0 && motion.valid(y, x + 1) != 0 &&
+                          motion.valid(y + 1, x) != 0;
+      if (!isSeen) continue;
+      const cv::Vec2f here = motion.displacement(y, x);
+      const cv::Vec2f right = motion.displacement(y, x + 1) - here;
+      const cv::Vec2f down = motion.displacement(y + 1, x) - here;
+      const float area = (1 + right[0]) * (1 + down[1]) - right[1] * down[0];
+      before += 1;
+      after += std::clamp(area, 1 / kMost, kMost);
+    }
+  }
+  return before > 0 ? after / before - 1 : 0;
+}
+
+}  // namespace
 
 bool ModelAnchors::isFollowed(const Anchor& anchor, const MotionMap& motion) const {
   const cv::Point2f at = imagePoint(anchor);
@@ -31,6 +59,7 @@ void ModelAnchors::add(std::span<const Anchor> anchors, const ModelMotionOfAncho
 void ModelAnchors::countChanges(std::span<const Anchor> anchors, const MotionMap& sinceLast,
                                 const MotionMap& toLast) {
   ++frames_;
+  resized_ += std::abs(growthOf(sinceLast, innerRect(frame_)));
   for (std::size_t slot = 0; slot < anchors.size(); ++slot) {
     const Anchor& previous = past_.back()[slot];
     const Anchor& current = anchors[slot];
@@ -69,6 +98,7 @@ std::optional<ModelAnchorSummary> ModelAnchors::summary() const {
                             .births = births_ / frames,
                             .deaths = deaths_ / frames,
                             .turnoverPercent = 100.0 * (births_ + deaths_) / anchors_,
+                            .resizedPercent = 100.0 * resized_ / frames,
                             .slip = slip_.value(),
                             .longSlip = longSlip_.value()};
 }

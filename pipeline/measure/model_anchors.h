@@ -28,6 +28,9 @@ struct ModelAnchorSummary {
   std::size_t frames = 0;
   double anchors = 0, births = 0, deaths = 0;
   double turnoverPercent = 0;     ///< births and deaths, relative to the anchors
+  /// By how much what they are on grows or shrinks on the screen, in per cent of its area a frame:
+  /// as many marks have to come or go.
+  double resizedPercent = 0;
   std::optional<Drift> slip;      ///< from where the surface goes, a frame
   std::optional<Drift> longSlip;  ///< over ten frames
 };
@@ -55,6 +58,7 @@ class ModelAnchors {
   std::deque<std::vector<marks::Anchor>> past_;  ///< ten at most, the newest last
   std::size_t frames_ = 0;
   double anchors_ = 0, births_ = 0, deaths_ = 0;
+  double resized_ = 0;
   MeanDrift slip_, longSlip_;
 };
 

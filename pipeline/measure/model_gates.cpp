@@ -96,10 +96,11 @@ std::vector<Verdict> slipVerdicts(const std::optional<ModelAnchorSummary>& ancho
                     value([](const ModelAnchorSummary& each) {
                       return each.slip ? std::optional(each.slip->percentile95) : std::nullopt;
                     })),
-          verdictOf({"births and deaths on models that stay in sight", " % of the marks a frame",
-                     kMaxTurnoverPercent, kNoAnchors},
+          verdictOf({"births and deaths on models that stay in sight, beyond their change of size",
+                     " % of the marks a frame", kMaxTurnoverPercent, kNoAnchors},
                     value([](const ModelAnchorSummary& each) {
-                      return std::optional(each.turnoverPercent);
+                      return std::optional(
+                          std::max(each.turnoverPercent - each.resizedPercent, 0.0));
                     }))};
 }
 

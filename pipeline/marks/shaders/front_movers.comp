@@ -6,13 +6,16 @@
 // Outputs: front RGBA16F: how surely the mover there is before models: 1 over a footprint, falling;
 //          and whether models are to be hidden, which real things' models are not. A group of
 //          invocations per block of the second list of busy_blocks.glsl; elsewhere is no mover.
+//          Hiding: the command that draws what is hidden, which has an instance if anything is.
 // Precision: highp.
+#include "pipeline/gpu/shaders/draw_command.glsl"
 #include "pipeline/marks/shaders/busy_blocks.glsl"
 #include "pipeline/marks/shaders/layer_cells.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D front;
 const int kMaxFootprints = 16;
+layout(std430, binding = 2) buffer Hiding { DrawCommand hiding; };
 layout(std140, binding = 0) uniform Footprints { vec4 corners[2 * kMaxFootprints]; };
 uniform highp sampler2D labels;
 uniform highp sampler2D before;
@@ -73,5 +76,6 @@ void main() {
   ivec2 pixel = ivec2((vec2(cell) + 0.5) * kLayerCellPixels * pixelsOfFull);
   uint object = objectOf(texelFetch(ids, min(pixel, textureSize(ids, 0) - 1), 0).r);
   bool hides = stays > 0.0 && (object == 0u || isVirtual(object));
+  if (hides) hiding.instanceCount = 1u;  // whoever writes it
   imageStore(front, cell, vec4(stays, hides ? 1.0 : 0.0, 0.0, 0.0));
 }

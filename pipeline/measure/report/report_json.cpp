@@ -138,6 +138,7 @@ Json jsonOf(const std::optional<ModelAnchorSummary>& anchors) {
           {"births_a_frame", anchors->births},
           {"deaths_a_frame", anchors->deaths},
           {"turnover_percent", anchors->turnoverPercent},
+          {"resized_percent", anchors->resizedPercent},
           {"slip", jsonOf(anchors->slip)},
           {"slip_over_10_frames", jsonOf(anchors->longSlip)}};
 }

@@ -209,8 +209,9 @@ std::vector<std::string> anchorsOnModelsLines(const Report& report) {
   const ModelAnchorSummary& anchors = *report.models->anchors;
   lines.push_back(fmt::format(
       "{:.0f} anchors on what stays in sight of models; a frame {:.2f} births and {:.2f} deaths "
-      "there: {:.2f} % of them",
-      anchors.anchors, anchors.births, anchors.deaths, anchors.turnoverPercent));
+      "there: {:.2f} % of them, where the area on the screen changes by {:.2f} %",
+      anchors.anchors, anchors.births, anchors.deaths, anchors.turnoverPercent,
+      anchors.resizedPercent));
   if (anchors.slip) lines.push_back("slip a frame: " + driftText(*anchors.slip));
   if (anchors.longSlip) lines.push_back("slip over ten frames: " + driftText(*anchors.longSlip));
   return lines;

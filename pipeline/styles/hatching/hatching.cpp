@@ -196,7 +196,7 @@ void Hatching::State::follow(const scene::ArFrame& frame, const HatchingParamete
   drawing->motion.update(frame);
   if (p.movers) {
     drawing->movers.update(frame, drawing->motion);
-    if (const Texture* const front = drawing->movers.front()) hiding.hide(frame, *front);
+    if (const auto cover = drawing->movers.cover()) hiding.hide(frame, *cover);
   } else {
     drawing->movers.reset();
   }

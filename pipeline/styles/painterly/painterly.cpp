@@ -216,7 +216,7 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
   const marks::MotionLayers* const movers = moversOf(p);
   if (movers != nullptr) {
     painting->movers.update(frame, painting->motion);
-    if (movers->front() != nullptr) hiding.hide(frame, *movers->front());
+    if (const auto cover = movers->cover()) hiding.hide(frame, *cover);
   } else {
     painting->movers.reset();
   }

@@ -230,7 +230,7 @@ void Watercolor::findMovers(const scene::ArFrame& frame) {
     return;
   }
   movers.update(frame, marks_->field);
-  if (const Texture* const front = movers.front()) passes_->hiding.hide(frame, *front);
+  if (const auto cover = movers.cover()) passes_->hiding.hide(frame, *cover);
 }
 
 /// Null where movers are not told apart.

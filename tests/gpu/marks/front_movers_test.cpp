@@ -66,8 +66,8 @@ class FrontMoversTest : public AnchorLife {
     field_->update(frame);
     layers_->update(frame, *field_, options_);
     drawn_ = support::readR32ui(*frame.ids);
-    ASSERT_NE(layers_->front(), nullptr);
-    hiding_->hide(frame, *layers_->front());
+    ASSERT_TRUE(layers_->cover());
+    hiding_->hide(frame, *layers_->cover());
     ids_ = support::readR32ui(*frame.ids);
     forms_ = support::readR32ui(*frame.forms);
     colour_ = support::readRgba8(*frame.colour);

@@ -35,6 +35,7 @@ struct Sheet {
   cv::Point2f velocity;
   float degrees = 0;  ///< a frame
   cv::Size2f size{90, 80};
+  double growth = 1;  ///< of its sides, a frame
 
   /// From the sheet's own coordinates, in px from its centre.
   cv::Point2f placeOf(cv::Point2f own, double frame) const {
@@ -42,6 +43,7 @@ struct Sheet {
     const auto c = static_cast<float>(std::cos(angle));
     const auto s = static_cast<float>(std::sin(angle));
     const auto t = static_cast<float>(frame);
+    own *= std::pow(growth, frame);
     return centre + velocity * t + cv::Point2f(c * own.x - s * own.y, s * own.x + c * own.y);
   }
   cv::Point2f ownOf(cv::Point2f px, double frame) const {
@@ -49,7 +51,7 @@ struct Sheet {
     const auto c = static_cast<float>(std::cos(angle));
     const auto s = static_cast<float>(std::sin(angle));
     const cv::Point2f d = px - centre - velocity * static_cast<float>(frame);
-    return {c * d.x + s * d.y, -s * d.x + c * d.y};
+    return cv::Point2f(c * d.x + s * d.y, -s * d.x + c * d.y) / std::pow(growth, frame);
   }
   bool holds(cv::Point2f own) const {
     return std::abs(own.x) <= size.width / 2 && std::abs(own.y) <= size.height / 2;
@@ -347,8 +349,9 @@ std::vector<marks::Anchor> anchorsAt(int frame, cv::Point2f velocity, std::uint3
   return anchors;
 }
 
-ModelAnchorSummary anchorsOver(const std::function<std::vector<marks::Anchor>(int)>& anchors) {
-  const World world({movingSheet()});
+ModelAnchorSummary anchorsOver(const std::function<std::vector<marks::Anchor>(int)>& anchors,
+                               const Sheet& sheet = movingSheet()) {
+  const World world({sheet});
   ModelMotion motion(nullptr);
   ModelAnchors measured(kFrame);
   for (int t = 0; t < 13; ++t) {
@@ -369,8 +372,28 @@ TEST(ModelAnchors, RideOnAModelWithoutSlip) {
   const auto riding = anchorsOver([](int t) { return anchorsAt(t, movingSheet().velocity, 1); });
   EXPECT_EQ(riding.anchors, 25);
   EXPECT_EQ(riding.turnoverPercent, 0);
+  EXPECT_LT(riding.resizedPercent, 1e-3);
   EXPECT_LT(riding.slip->percentile95, 1e-3);
   EXPECT_LT(riding.longSlip->percentile95, 1e-3);
+}
+
+TEST(ModelAnchors, KnowHowMuchAModelGrowsOrShrinks) {
+  const auto still = [](int) { return anchorsAt(0, {}, 1); };
+  Sheet sheet = movingSheet();
+  for (const double growth : {1.01, 0.99}) {
+    sheet.growth = growth;
+    EXPECT_NEAR(anchorsOver(still, sheet).resizedPercent, 2, 0.03) << growth;
+  }
+}
+
+TEST(ModelGates, CountNoMarksThatASizeAsksFor) {
+  styles::CoherenceGates gates;
+  gates.holdsAnchors = true;
+  ModelReport report;
+  report.anchors = ModelAnchorSummary{.turnoverPercent = 3.5, .resizedPercent = 1.6};
+  EXPECT_EQ(modelVerdicts(report, gates).back().state, State::kPassed);
+  report.anchors->resizedPercent = 1.4;
+  EXPECT_EQ(modelVerdicts(report, gates).back().state, State::kFailed);
 }
 
 TEST(ModelAnchors, SlipWhereTheCameraCarriesThem) {
