@@ -106,6 +106,8 @@ void turn(uint slot, vec4 jacobian) {
 const float kShrinking = 4.0;  // times as fast as shapes change
 const float kMoverShrinking = 20.0;
 
+const float kModelHold = 0.25;  // of the rate at which shapes change elsewhere
+
 // An arm that now covers other content shrinks faster than it would grow. One that was cut short
 // by something that has gone grows, however long shapes are held.
 float heldLength(float now, float was, float stays, bool isOnMover) {
@@ -288,7 +290,9 @@ void main() {
   float goal = wanted ? 1.0 : 0.0;
   // The past ends where the stroke stands on clearly other content.
   float restless = isResting ? 0.0 : smoothstep(flatDetail.x, flatDetail.y, seen);
-  float stays = isOnMover ? past.x : pow(past.x, mix(1.0 / flatHold, 1.0, restless));
+  // A surface carries its strokes exactly: what changes is how its field is seen.
+  float hold = isModel ? kModelHold : mix(1.0 / flatHold, 1.0, restless);
+  float stays = isOnMover ? past.x : pow(past.x, hold);
   vec3 change = colour - strokes[slot].colour;
   float changed = isNew ? 0.0 : smoothstep(otherColour.x, otherColour.y, weightedLength(change));
   uint now = label | (wanted ? kWanted : 0u);

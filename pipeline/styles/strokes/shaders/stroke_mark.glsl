@@ -43,15 +43,19 @@ vec2 brushPlace() {
 }
 
 // Coverage and height. The side of a stroke is smooth: a step would look different with each part
-// of a pixel that the stroke moves. So would bristles that are thinner than a pixel; they go where
-// strokes are carried by models and movers.
+// of a pixel that the stroke moves. So would bristles that are thinner than two pixels; they go
+// where strokes are carried by models and movers.
 vec2 markAt(vec2 place) {
   bool isSoft = abs(sense) > kSoftBristles;
-  vec2 aside = isSoft ? 0.5 / vec2(textureSize(brushes, 0)) : vec2(0.0);
+  vec2 texel = 1.0 / vec2(textureSize(brushes, 0));
+  vec2 aside = isSoft ? vec2(0.5, 1.0) * texel : vec2(0.0);
+  float variant = floor(kVariants * brush.y) / kVariants;
+  vec2 rows = variant + vec2(0.5 * texel.y, 1.0 / kVariants - 0.5 * texel.y);
   int taps = isSoft ? 4 : 1;
   vec2 sum = vec2(0.0);
   for (int i = 0; i < taps; ++i) {
-    sum += texture(brushes, place + aside * (2.0 * vec2(i & 1, i >> 1) - 1.0)).rg;
+    vec2 tap = place + aside * (2.0 * vec2(i & 1, i >> 1) - 1.0);
+    sum += texture(brushes, vec2(tap.x, clamp(tap.y, rows.x, rows.y))).rg;
   }
   vec2 mark = sum / float(taps);
   float halfWidth = kSmooth / (drawnWidth() - 1.0);
