@@ -279,8 +279,8 @@ void Program::drawArea(const RenderTarget& target, glm::ivec2 origin, hal::Frame
   drawTriangle();
 }
 
-void Program::drawAreaIndirect(const RenderTarget& target, glm::ivec2 origin,
-                               hal::FrameSize size, const Buffer& command) {
+void Program::drawAreaIndirect(const RenderTarget& target, glm::ivec2 origin, hal::FrameSize size,
+                               const Buffer& command) {
   assert(linked_->targets.empty() && command.sizeBytes() >= kDrawCommandBytes);
   assert(origin.x >= 0 && origin.y >= 0 && origin.x + size.width <= target.size().width &&
          origin.y + size.height <= target.size().height);

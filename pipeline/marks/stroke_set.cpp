@@ -1,10 +1,12 @@
 #include "pipeline/marks/stroke_set.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,12 @@ constexpr unsigned kFormLabels = 4095;
 // the level of the field whose detail decides where a layer is painted
 constexpr std::size_t kDetailLevel = 1;
 
+// Of shaders/stroke_lists.glsl: the commands that trace either list, in bytes, and what they are
+// before anything is listed.
+constexpr std::size_t kKnowingAll = 0;
+constexpr std::size_t kMoversOnly = 16;
+constexpr std::array<std::uint32_t, 8> kEmptyLists{0, 1, 1, 0, 0, 1, 1, 0};
+
 /// A number near the golden section of n and coprime to it, so that neighbouring slots are far
 /// apart in the painting order.
 std::uint32_t strideFor(std::uint32_t n) {
@@ -39,25 +47,30 @@ struct StrokeSet::State {
       : library(shaderLibrary),
         slots(slotCount),
         carry(library.compute(kShaders + "stroke_carry.comp")),
+        list(library.compute(kShaders + "stroke_lists.comp")),
         order(library.compute(kShaders + "stroke_order.comp")),
         lay(library.compute(kShaders + "stroke_instances.comp")),
         strokes(slots * kStrokeBytes, gpu::BufferUsage::kDynamic),
+        lists(sizeof(kEmptyLists) + slots * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
         ranks(slots * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
         command(gpu::kDrawCommandBytes, gpu::BufferUsage::kDynamic),
         instances(slots * kInstanceBytes, gpu::BufferUsage::kDynamic),
         noIds(gpu::TextureFormat::kR32ui, {1, 1}),
         anyColour(gpu::TextureFormat::kRgba8, {1, 1}) {
     strokes.write(std::vector<std::byte>(strokes.sizeBytes()));
+    lists.write(std::as_bytes(std::span(kEmptyLists)));
   }
 
   const gpu::ShaderLibrary& library;
   std::uint32_t slots;
   gpu::Program carry;
-  std::optional<gpu::Program> trace;
-  std::optional<gpu::Program> traceMoversOnly;
+  gpu::Program list;
+  std::optional<gpu::Program> traceKnowingAll;  // strokes that may meet models or segments
+  std::optional<gpu::Program> traceMoversOnly;  // all others
   gpu::Program order;
   gpu::Program lay;
   gpu::Buffer strokes;
+  gpu::Buffer lists;
   gpu::Buffer ranks;
   gpu::Buffer command;
   gpu::Buffer instances;
@@ -66,15 +79,20 @@ struct StrokeSet::State {
   LayerTextures layerTextures;
   hal::TimePoint lastTime;
 
-  /// The program that traces strokes: where the scene has no models and the image no segments, a
-  /// smaller one that knows nothing of them.
-  gpu::Program& traceOf(const scene::ArFrame& frame, const gpu::Texture* borders);
+  void listAll(const scene::ArFrame& frame, const AnchorSet& anchors, const StrokeRule& rule,
+               const gpu::Texture* borders);
   glm::ivec2 allSlots() const { return {static_cast<int>(slots), 1}; }
   void carryWithObjects(const scene::ArFrame& frame, const AnchorSet& anchors,
                         const StrokeRule& rule);
+  /// Lists them and traces them: those that cannot meet models or segments by a smaller program,
+  /// which knows nothing of them.
   void grow(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
             const StrokePaint& paint, const StrokeRule& rule, const MotionLayers* layers,
             const gpu::Texture* borders, hal::Duration step);
+  void traceListed(gpu::Program& program, std::size_t groups, const scene::ArFrame& frame,
+                   const AnchorSet& anchors, const TensorField& field, const StrokePaint& paint,
+                   const StrokeRule& rule, const MotionLayers* layers, const gpu::Texture* borders,
+                   hal::Duration step);
   void layOut(const AnchorSet& anchors, const StrokeRule& rule);
 };
 
@@ -109,31 +127,51 @@ void StrokeSet::State::carryWithObjects(const scene::ArFrame& frame, const Ancho
       .dispatch(allSlots(), GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-gpu::Program& StrokeSet::State::traceOf(const scene::ArFrame& frame, const gpu::Texture* borders) {
-  const bool knowsAll = frame.mayHaveObjects() || borders != nullptr;
-  std::optional<gpu::Program>& program = knowsAll ? trace : traceMoversOnly;
-  if (!program) {
-    program =
-        library.compute(kShaders + "stroke_trace.comp",
-                        knowsAll ? gpu::ShaderDefines{} : gpu::ShaderDefines{{"MOVERS_ONLY"}});
-  }
-  return *program;
+void StrokeSet::State::listAll(const scene::ArFrame& frame, const AnchorSet& anchors,
+                               const StrokeRule& rule, const gpu::Texture* borders) {
+  list.use()
+      .storage("Anchors", anchors.anchors())
+      .storage("Strokes", strokes)
+      .storage("StrokeLists", lists)
+      .set("slots", slots)
+      .set("segment", rule.segmentPx)
+      .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .set("objectBounds", frame.objectBoundsOrAll())
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+      .set("hasSegments", borders != nullptr ? 1 : 0)
+      .dispatch(allSlots(), GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
 void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchors,
                             const TensorField& field, const StrokePaint& paint,
                             const StrokeRule& rule, const MotionLayers* layers,
                             const gpu::Texture* borders, hal::Duration step) {
+  listAll(frame, anchors, rule, borders);
+  const auto trace = [&](std::optional<gpu::Program>& program, const gpu::ShaderDefines& defines,
+                         std::size_t groups) {
+    if (!program) program = library.compute(kShaders + "stroke_trace.comp", defines);
+    traceListed(*program, groups, frame, anchors, field, paint, rule, layers, borders, step);
+  };
+  const bool hasOthers = frame.mayHaveObjects() || borders != nullptr;
+  if (hasOthers) trace(traceKnowingAll, {}, kKnowingAll);
+  if (borders == nullptr) trace(traceMoversOnly, {{"MOVERS_ONLY"}}, kMoversOnly);
+}
+
+void StrokeSet::State::traceListed(gpu::Program& program, std::size_t groups,
+                                   const scene::ArFrame& frame, const AnchorSet& anchors,
+                                   const TensorField& field, const StrokePaint& paint,
+                                   const StrokeRule& rule, const MotionLayers* layers,
+                                   const gpu::Texture* borders, hal::Duration step) {
   const auto stays = [step](hal::Duration timeConstant) {
     return keptAfter(step, hal::toSeconds(timeConstant));
   };
   const std::size_t level = std::min(rule.fieldLevel, field.levelCount() - 1);
   const bool hasDepth = frame.hasObjects && frame.depth != nullptr;
   const std::size_t detail = std::min(kDetailLevel, field.levelCount() - 1);
-  gpu::Program& program = traceOf(frame, borders);
   program.use()
       .storage("Anchors", anchors.anchors())
       .storage("Strokes", strokes)
+      .storage("StrokeLists", lists)
       .texture("field", field.resolved(level))
       .texture("detailField", field.resolved(detail))
       .texture("moverField", field.movers())
@@ -197,7 +235,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
         .set("hasObjects", frame.hasObjects ? 1 : 0);
   }
   rule.focus.bind(program);
-  program.dispatch(allSlots(), GL_SHADER_STORAGE_BARRIER_BIT);
+  program.dispatchIndirect(lists, groups, GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void StrokeSet::State::layOut(const AnchorSet& anchors, const StrokeRule& rule) {
@@ -205,6 +243,7 @@ void StrokeSet::State::layOut(const AnchorSet& anchors, const StrokeRule& rule) 
       .storage("Strokes", strokes)
       .storage("Ranks", ranks)
       .storage("Command", command)
+      .storage("StrokeLists", lists)
       .set("slots", slots)
       .set("stride", strideFor(slots))
       .set("vertices", static_cast<unsigned>(verticesOf(rule.quads)))

@@ -22,8 +22,8 @@ double growthOf(const MotionMap& motion, const cv::Rect& rect) {
   double before = 0, after = 0;
   for (int y = rect.y; y + 1 < rect.br().y; ++y) {
     for (int x = rect.x; x + 1 < rect.br().x; ++x) {
-      const bool isSeen = motion.valid(y, x) != 0 && motion.valid(y, x + 1) != 0 &&
-                          motion.valid(y + 1, x) != 0;
+      const bool isSeen =
+          motion.valid(y, x) != 0 && motion.valid(y, x + 1) != 0 && motion.valid(y + 1, x) != 0;
       if (!isSeen) continue;
       const cv::Vec2f here = motion.displacement(y, x);
       const cv::Vec2f right = motion.displacement(y, x + 1) - here;

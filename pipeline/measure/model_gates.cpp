@@ -92,16 +92,16 @@ std::vector<Verdict> slipVerdicts(const std::optional<ModelAnchorSummary>& ancho
   const auto value = [&anchors](auto read) {
     return anchors ? read(*anchors) : std::optional<double>();
   };
-  return {verdictOf({"slip of marks on models, 95 %", " px a frame", kMaxSlipPixels, kNoAnchors},
-                    value([](const ModelAnchorSummary& each) {
-                      return each.slip ? std::optional(each.slip->percentile95) : std::nullopt;
-                    })),
-          verdictOf({"births and deaths on models that stay in sight, beyond their change of size",
-                     " % of the marks a frame", kMaxTurnoverPercent, kNoAnchors},
-                    value([](const ModelAnchorSummary& each) {
-                      return std::optional(
-                          std::max(each.turnoverPercent - each.resizedPercent, 0.0));
-                    }))};
+  return {
+      verdictOf({"slip of marks on models, 95 %", " px a frame", kMaxSlipPixels, kNoAnchors},
+                value([](const ModelAnchorSummary& each) {
+                  return each.slip ? std::optional(each.slip->percentile95) : std::nullopt;
+                })),
+      verdictOf({"births and deaths on models that stay in sight, beyond their change of size",
+                 " % of the marks a frame", kMaxTurnoverPercent, kNoAnchors},
+                value([](const ModelAnchorSummary& each) {
+                  return std::optional(std::max(each.turnoverPercent - each.resizedPercent, 0.0));
+                }))};
 }
 
 /// A control has to fail at least one of the gates of models.

@@ -4,11 +4,11 @@
 //          A stroke stays on what it lies on: it ends where its label does (stroke_label.glsl), or
 //          its depth makes a step.
 // Defines: stroke_support.glsl's.
-// Inputs:  anchors; stroke_walk.glsl's; background (marks::MotionLayers); ids (ArFrame) if
+// Inputs:  anchors; StrokeLists: those that are traced (stroke_lists.glsl); stroke_walk.glsl's; background (marks::MotionLayers); ids (ArFrame) if
 //          hasObjects; depthRange: the near and the far plane in metres, 0: no depth; focalPx: of
 //          the full image, 0: not known; imageScale: the anchors', octaves; focus.glsl's; layer: its
 //          number and how many; the rest as in marks::StrokeRule.
-// Outputs: strokes. One invocation per anchor.
+// Outputs: strokes. One invocation per stroke of its list.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
@@ -16,11 +16,13 @@
 #include "pipeline/marks/shaders/layer_blocks.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
 #include "pipeline/marks/shaders/stroke_history.glsl"
+#include "pipeline/marks/shaders/stroke_lists.glsl"
 #include "pipeline/marks/shaders/stroke_walk.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) buffer Strokes { Stroke strokes[]; };
+layout(std430, binding = 2) readonly buffer StrokeLists { uint lists[]; };
 uniform highp sampler2D background;
 uniform highp usampler2D ids;
 uniform bool anew;
@@ -40,6 +42,11 @@ uniform float imageScale;
 uniform float focalPx;
 uniform vec2 layer;
 
+#ifdef MOVERS_ONLY
+const int kList = kMoversOnly;
+#else
+const int kList = kKnowingAll;
+#endif
 const float kFocusDetail = 1.0;  // how much more detail counts in a focus
 
 // The label of the anchor's triangle: that of its pixel, or of the one beside it that shows the
@@ -222,13 +229,9 @@ bool isWanted(uint slot, vec2 px, float seen, bool isResting, bool isModel, bool
 
 // What is read again, of anchors and strokes, is not kept in registers through the walk.
 void main() {
-  uint slot = gl_GlobalInvocationID.x;
-  if (slot >= slots) return;
+  if (gl_GlobalInvocationID.x >= lists[kList + 3]) return;
+  uint slot = lists[listedAt(kList, gl_GlobalInvocationID.x, slots)];
   uint state = anchors[slot].state;
-  if (!isAlive(state)) {
-    strokes[slot].seen = 0.0;
-    return;
-  }
   vec2 px = anchors[slot].px;
   bool isModel = hasObjects && isVirtual(objectOf(anchors[slot].surface));
   bool isNew = anew || (state & kBorn) != 0u;

@@ -9,6 +9,7 @@
 // Outputs: functions; walked: an invocation's arms, ways: their directions. Precision: highp.
 #include "pipeline/marks/shaders/colour_difference.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
+#include "pipeline/marks/shaders/stroke_reach.glsl"
 #include "pipeline/marks/shaders/stroke_support.glsl"
 #include "pipeline/scene/render/shaders/depth_step.glsl"
 uniform highp sampler2D depth;
@@ -98,10 +99,7 @@ int wayAt(int step) { return step * kWalkers + int(gl_LocalInvocationIndex); }
 // Whether an arm may come to labels other than the background's 0.
 bool reachesLabels(vec2 px) {
   if (hasSegments || !hasLabels) return hasLabels;
-  vec2 reach = (segment * float(kArm) + 2.0) * pixelsOfFull;
-  vec2 at = px * pixelsOfFull;
-  return all(greaterThanEqual(at, objectBounds.xy - reach)) &&
-         all(lessThanEqual(at, objectBounds.zw + reach));
+  return reachesObjects(px, segment, objectBounds, pixelsOfFull);
 }
 
 const float kBehind = 0.025;  // of the image's width: so far strokes go on behind models
