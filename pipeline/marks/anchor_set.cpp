@@ -1,6 +1,7 @@
 #include "pipeline/marks/anchor_set.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <chrono>
 #include <cmath>
@@ -22,6 +23,7 @@ constexpr std::size_t kCellBytes = 64;  // shaders/anchor_cells.glsl
 constexpr int kMaxStrata = 4;           // along a cell's side (shaders/anchor_cells.glsl)
 constexpr unsigned kFirstModel = scene::kMaxPlanes;  // in SurfaceAccess::bodies
 constexpr GLbitfield kStored = GL_SHADER_STORAGE_BARRIER_BIT;
+constexpr std::array<std::uint32_t, 4> kNothingKept{0, 1, 1, 0};  // shaders/anchor_kept.glsl
 
 glm::ivec2 gridOf(hal::FrameSize full, int cellPixels) {
   return {(full.width + cellPixels - 1) / cellPixels, (full.height + cellPixels - 1) / cellPixels};
@@ -82,9 +84,11 @@ struct AnchorSet::State {
         anchors(slots * sizeof(Anchor), gpu::BufferUsage::kDynamic),
         cells(static_cast<std::size_t>(grid.x * grid.y) * kCellBytes, gpu::BufferUsage::kDynamic),
         births((slots + 1) * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
+        kept((slots + 4) * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
         noBodies(scene::SurfaceAccess::kBodyBytes, gpu::BufferUsage::kStatic),
         noIds(gpu::TextureFormat::kR32ui, {1, 1}) {
     anchors.write(std::vector<std::byte>(anchors.sizeBytes()));
+    kept.write(std::as_bytes(std::span(kNothingKept)));
     cells.write(std::vector<std::byte>(cells.sizeBytes()));
   }
 
@@ -102,6 +106,7 @@ struct AnchorSet::State {
   gpu::Buffer anchors;
   gpu::Buffer cells;
   gpu::Buffer births;  // the free slots, in order
+  gpu::Buffer kept;    // the others, which passes are dispatched for (shaders/anchor_kept.glsl)
   gpu::Buffer noBodies;
   gpu::Texture noIds;
   LayerTextures layerTextures;
@@ -130,7 +135,7 @@ struct AnchorSet::State {
   }
   /// For programs that carry anchors.
   gpu::Program& beginCarrying(gpu::Program& program, const scene::ArFrame& frame) {
-    return setFrame(program.use(), frame).set("margin", margin()).set("slots", slots);
+    return setFrame(program.use(), frame).set("margin", margin());
   }
   /// For programs of cells of density.
   gpu::Program& beginCells(gpu::Program& program) {
@@ -138,6 +143,11 @@ struct AnchorSet::State {
         .set("grid", grid)
         .set("cellPixels", options.density.cellPixels)
         .set("strataSide", strataSide());
+  }
+
+  /// Dispatches the program, which is in use, for all slots that were kept.
+  void dispatchKept(gpu::Program& program) {
+    program.storage("Kept", kept).dispatchIndirect(kept, 0, kStored);
   }
 
   void carryOnSurfaces(const scene::ArFrame& frame);
@@ -153,6 +163,7 @@ void AnchorSet::State::carryOnSurfaces(const scene::ArFrame& frame) {
   const tracking::Intrinsics& pinhole = access.camera->intrinsics();
   const glm::vec2 pixelsOfFull(frame.pixelsOfFull());
   beginCarrying(surface, frame)
+      .set("slots", slots)
       .texture("depth", *frame.depth)
       .storage("Posed", *access.posed)
       .storage("Triangles", *access.triangles)
@@ -187,8 +198,8 @@ void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionFie
       .set("restsWithCamera", layers != nullptr && layers->isStanding() ? 1 : 0)
       .set("underModels", hold.underModels ? 1 : 0)
       .set("follows", motion.follows() ? 1 : 0)
-      .set("anew", hasBegunAnew ? 1 : 0)
-      .dispatch(allSlots(), kStored);
+      .set("anew", hasBegunAnew ? 1 : 0);
+  dispatchKept(image);
 }
 
 void AnchorSet::State::countAnchors(const scene::ArFrame& frame, const AnchorHold& hold,
@@ -196,20 +207,18 @@ void AnchorSet::State::countAnchors(const scene::ArFrame& frame, const AnchorHol
   setFrame(beginCells(count), frame)
       .texture("forms", frame.hasObjects ? *frame.forms : noIds)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
-      .set("slots", slots)
       .storage("Anchors", anchors)
       .storage("Cells", cells)
       .set("fadeIn", fadeOf(step, hold.fadeIn))
       .set("fadeOut", fadeOf(step, hold.fadeOut))
-      .set("moverFadeOut", fadeOf(step, std::min(hold.fadeOut, hold.moverFadeOut)))
-      .dispatch(allSlots(), kStored);
+      .set("moverFadeOut", fadeOf(step, std::min(hold.fadeOut, hold.moverFadeOut)));
+  dispatchKept(count);
   setFrame(beginCells(choice), frame)
       .texture("forms", frame.hasObjects ? *frame.forms : noIds)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
-      .set("slots", slots)
       .storage("Anchors", anchors)
-      .storage("Cells", cells)
-      .dispatch(allSlots(), kStored);
+      .storage("Cells", cells);
+  dispatchKept(choice);
 }
 
 void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionField& motion,
@@ -232,8 +241,9 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .storage("Anchors", anchors)
       .storage("Cells", cells)
       .storage("Plan", births)
+      .storage("Kept", kept)
       .set("cellCount", static_cast<unsigned>(grid.x * grid.y))
-      .dispatch({1, 1}, kStored);
+      .dispatch({1, 1}, kStored | GL_COMMAND_BARRIER_BIT);
   const bool hasDepth = frame.hasObjects && frame.depth != nullptr && frame.surfaces.has_value();
   const gpu::Texture* const before = field != nullptr ? field->patchesBefore() : nullptr;
   setFrame(beginCells(spawn), frame)

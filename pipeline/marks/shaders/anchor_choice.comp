@@ -1,20 +1,21 @@
 // Purpose: chooses, in each cell and by rank, the anchors that are the next to be removed and the
 //          dormant one that is the next to wake.
-// Inputs:  anchors, slots of them; cells with the counts of anchor_count.comp; anchor_patch.glsl's.
-// Outputs: cells: keys, and the number of dormant anchors. One invocation per anchor.
+// Inputs:  anchors; cells with the counts of anchor_count.comp; anchor_patch.glsl's.
+// Outputs: cells: keys, and the number of dormant anchors. One invocation per slot of
+//          anchor_kept.glsl's.
 // Precision: integers, so that order does not matter; highp for places.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"
+#include "pipeline/marks/shaders/anchor_kept.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) buffer Cells { Cell cells[]; };
-uniform uint slots;
 #include "pipeline/marks/shaders/anchor_patch.glsl"
 
 void main() {
-  uint slot = gl_GlobalInvocationID.x;
-  if (slot >= slots) return;
+  if (gl_GlobalInvocationID.x >= keptCount) return;
+  uint slot = keptSlots[gl_GlobalInvocationID.x];
   uint state = anchors[slot].state;
   bool sleeps = isDormant(state) && (state & kHidden) == 0u;
   if (!sleeps && !isCovered(state) && !isStaying(state)) return;

@@ -2,10 +2,12 @@
 //          surface that has faded out becomes dormant.
 // Inputs:  anchor_cells.glsl's; ids and forms (ArFrame) and their pixelsOfFull if hasObjects;
 //          fadeIn, fadeOut, moverFadeOut: the part of a fade that this frame completes.
-// Outputs: anchors; cells, whose counts were 0 (anchor_spawn.comp). One invocation per anchor.
+// Outputs: anchors; cells, whose counts were 0 (anchor_spawn.comp). One invocation per slot
+//          of anchor_kept.glsl's.
 // Precision: highp; counts are integers, so that order does not matter.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"
+#include "pipeline/marks/shaders/anchor_kept.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer Anchors { Anchor anchors[]; };
@@ -13,12 +15,11 @@ layout(std430, binding = 1) buffer Cells { Cell cells[]; };
 uniform float fadeIn;
 uniform float fadeOut;
 uniform float moverFadeOut;
-uniform uint slots;
 #include "pipeline/marks/shaders/anchor_patch.glsl"
 
 void main() {
-  uint slot = gl_GlobalInvocationID.x;
-  if (slot >= slots) return;
+  if (gl_GlobalInvocationID.x >= keptCount) return;
+  uint slot = keptSlots[gl_GlobalInvocationID.x];
   uint state = anchors[slot].state;
   if (!isAlive(state)) return;
   bool isBehind = isCovered(state);

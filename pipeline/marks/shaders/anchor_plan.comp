@@ -2,10 +2,11 @@
 //          slots; where none is free, one of a dormant anchor, then of a covered one. A single work group.
 // Inputs:  anchors, slots of them; births of the cells, cellCount of them.
 // Outputs: cells: the index of the cell's first spawn; plan: the number of free slots, then the
-//          slots.
+//          slots; kept: anchor_kept.glsl's.
 // Precision: integers.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"
+#include "pipeline/marks/shaders/anchor_kept.glsl"
 #include "pipeline/marks/shaders/anchor_slots.glsl"
 layout(local_size_x = 128) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
@@ -61,15 +62,23 @@ void main() {
     barrier();
   }
   uint unused = freeBefore[127] + dormantBefore[127];
-  if (me == 127u) freeCount = unused + coveredBefore[127];
+  uint births = bornBefore[127];
+  if (me == 127u) {
+    freeCount = unused + coveredBefore[127];
+    keptCount = slots - freeBefore[127] + min(births, freeBefore[127]);
+    keptGroups = uint[3]((keptCount + kKeptGroup - 1u) / kKeptGroup, 1u, 1u);
+  }
   uint next = freeBefore[me] - free;
+  uint nextKept = firstSlot - next + min(births, next);
   uint nextDormant = freeBefore[127] + dormantBefore[me] - dormant;
   uint nextCovered = unused + coveredBefore[me] - covered;
   for (uint i = firstSlot; i < endSlot; ++i) {
     uint state = anchors[i].state;
+    bool isFree = !isAlive(state) && !isDormant(state);
+    if (!isFree || next < births) keptSlots[nextKept++] = i;
     if (isDormant(state)) {
       freeSlots[nextDormant++] = i;
-    } else if (!isAlive(state)) {
+    } else if (isFree) {
       freeSlots[next++] = i;
     } else if (isCovered(state)) {
       freeSlots[nextCovered++] = i;
