@@ -168,6 +168,7 @@ void TensorField::State::sumRegions(const scene::ArFrame& frame, const MotionFie
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
       .texture("surfaceMotion", hasSurfaces ? *frame.motion->texture : before)
       .set("hasSurfaces", hasSurfaces ? 1 : 0)
+      .set("objectBounds", frame.objectBoundsOrAll())
       .storage("Edges", edges)
       .image("regions", finest.regions, gpu::ImageAccess::kWrite)
       .image("moverRegions", moverRegions, gpu::ImageAccess::kWrite)

@@ -9,8 +9,8 @@
 //          region's side in px of the full image; before, moversBefore: the previous frame's
 //          regions, motion (MotionField's), if hasPast; past: the share of them that remains;
 //          slack: by which part detail may differ from the held value; image_motion.glsl's, flow
-//          backward; edge_parts.glsl's; ids (ArFrame) if hasObjects;
-//          surfaceMotion (ArFrame::motion) if hasSurfaces.
+//          backward; edge_parts.glsl's; ids and objectBounds (ArFrame) if
+//          hasObjects; surfaceMotion (ArFrame::motion) if hasSurfaces.
 // Outputs: regions, moverRegions RGBA16F: as in tensor_region.glsl. One invocation per region.
 // Precision: highp.
 #include "pipeline/marks/shaders/edge_bins.glsl"
@@ -27,6 +27,7 @@ uniform highp sampler2D before;
 uniform highp sampler2D moversBefore;
 uniform highp sampler2D motion;
 uniform highp usampler2D ids;
+uniform vec4 objectBounds;
 uniform highp sampler2D surfaceMotion;
 uniform bool hasSurfaces;
 uniform vec2 pixelsOfFull;
@@ -43,6 +44,17 @@ const float kLeastSurface = 0.5;  // of a region: planes and real things that fi
 const float kKnownPx = 4.0;  // of error: a motion that is less certain carries no past
 
 const float kReach = 6.0;  // px: half a region, and the width of an edge
+
+// Whether a plane or a real thing may fill enough of a region: it shows in its middle or a corner.
+bool mayShowSurface(ivec2 low, ivec2 high) {
+  if (!hasSurfaces || !hasPast) return false;
+  float shown = texelFetch(surfaceMotion, (low + high) / 2, 0).w;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 corner = ivec2((i & 1) == 0 ? low.x : high.x - 1, (i & 2) == 0 ? low.y : high.y - 1);
+    shown = max(shown, texelFetch(surfaceMotion, corner, 0).w);
+  }
+  return shown != 0.0;
+}
 
 bool isInPicture(vec2 px) {
   return all(greaterThanEqual(px, vec2(0.0))) && all(lessThan(px, fullSize));
@@ -131,7 +143,9 @@ void main() {
   float hidden = 0.0;  // by virtual objects
   // Two loops in place of a branch, of which software renderers run both sides; of a loop that no
   // invocation enters they run one round.
-  bool isPlain = near == 0.0 && !hasObjects && !(hasSurfaces && hasPast);
+  bool mayShowObjects = hasObjects && all(lessThan(vec2(low), objectBounds.zw)) &&
+                        all(greaterThan(vec2(high), objectBounds.xy));
+  bool isPlain = near == 0.0 && !mayShowObjects && !mayShowSurface(low, high);
   for (int y = isPlain ? low.y : high.y; y < high.y; ++y) {
     for (int x = low.x; x < high.x; ++x) {
       add(ground, texelFetch(tensors, ivec2(x, y), 0).xy, 1.0, threshold);
