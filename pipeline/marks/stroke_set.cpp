@@ -18,6 +18,7 @@ namespace pleinair::marks {
 namespace {
 
 const std::string kShaders = "pipeline/marks/shaders/";
+const std::string kTrace = kShaders + "stroke_trace.comp";
 constexpr std::size_t kStrokeBytes = 96;  // shaders/stroke.glsl
 constexpr glm::ivec2 kArms{2, 4};         // of a stroke; segments of each
 // The bits of labels in borders (shaders/stroke_label.glsl) and in forms (surface_form.glsl).
@@ -147,14 +148,17 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
                             const StrokeRule& rule, const MotionLayers* layers,
                             const gpu::Texture* borders, hal::Duration step) {
   listAll(frame, anchors, rule, borders);
-  const auto trace = [&](std::optional<gpu::Program>& program, const gpu::ShaderDefines& defines,
-                         std::size_t groups) {
-    if (!program) program = library.compute(kShaders + "stroke_trace.comp", defines);
-    traceListed(*program, groups, frame, anchors, field, paint, rule, layers, borders, step);
+  const auto trace = [&](gpu::Program& program, std::size_t groups) {
+    traceListed(program, groups, frame, anchors, field, paint, rule, layers, borders, step);
   };
-  const bool hasOthers = frame.mayHaveObjects() || borders != nullptr;
-  if (hasOthers) trace(traceKnowingAll, {}, kKnowingAll);
-  if (borders == nullptr) trace(traceMoversOnly, {{"MOVERS_ONLY"}}, kMoversOnly);
+  if (frame.mayHaveObjects() || borders != nullptr) {
+    if (!traceKnowingAll) traceKnowingAll = library.compute(kTrace);
+    trace(*traceKnowingAll, kKnowingAll);
+  }
+  if (borders == nullptr) {
+    if (!traceMoversOnly) traceMoversOnly = library.compute(kTrace, {{"MOVERS_ONLY"}});
+    trace(*traceMoversOnly, kMoversOnly);
+  }
 }
 
 void StrokeSet::State::traceListed(gpu::Program& program, std::size_t groups,
