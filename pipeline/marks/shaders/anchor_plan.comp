@@ -62,20 +62,23 @@ void main() {
     barrier();
   }
   uint unused = freeBefore[127] + dormantBefore[127];
-  uint births = bornBefore[127];
   if (me == 127u) {
     freeCount = unused + coveredBefore[127];
-    keptCount = slots - freeBefore[127] + min(births, freeBefore[127]);
-    keptGroups = uint[3]((keptCount + kKeptGroup - 1u) / kKeptGroup, 1u, 1u);
+    uint kept = slots - freeBefore[127] + min(bornBefore[127], freeBefore[127]);
+    keptCount = kept;
+    keptGroups = uint[3]((kept + kKeptGroup - 1u) / kKeptGroup, 1u, 1u);
   }
-  uint next = freeBefore[me] - free;
-  uint nextKept = firstSlot - next + min(births, next);
-  uint nextDormant = freeBefore[127] + dormantBefore[me] - dormant;
-  uint nextCovered = unused + coveredBefore[me] - covered;
+  // What the scan knows is not kept in registers.
+  uint last = max(me, 1u) - 1u;
+  uint next = me == 0u ? 0u : freeBefore[last];
+  uint nextDormant = freeBefore[127] + (me == 0u ? 0u : dormantBefore[last]);
+  uint nextCovered = unused + (me == 0u ? 0u : coveredBefore[last]);
   for (uint i = firstSlot; i < endSlot; ++i) {
     uint state = anchors[i].state;
     bool isFree = !isAlive(state) && !isDormant(state);
-    if (!isFree || next < births) keptSlots[nextKept++] = i;
+    // Before it are as many free slots as `next`, of which births take the first.
+    uint births = bornBefore[127];
+    if (!isFree || next < births) keptSlots[i - next + min(births, next)] = i;
     if (isDormant(state)) {
       freeSlots[nextDormant++] = i;
     } else if (isFree) {
@@ -84,7 +87,7 @@ void main() {
       freeSlots[nextCovered++] = i;
     }
   }
-  uint number = bornBefore[me] - born;
+  uint number = me == 0u ? 0u : bornBefore[last];
   for (uint i = firstCell; i < endCell; ++i) {
     cells[i].firstBirth = number;
     number += birthsOf(i);
