@@ -68,6 +68,17 @@ GLuint groups(int items, int groupSize) {
 
 }  // namespace
 
+namespace {
+
+/// Mesa's driver of V3D maps the command of an indirect dispatch, and waits for what writes it
+/// (v3d_launch_grid).
+bool waitsForCommands() {
+  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return renderer != nullptr && std::string_view(renderer).starts_with("V3D");
+}
+
+}  // namespace
+
 struct Program::Linked {
   ProgramHandle handle;
   std::string label;
@@ -75,6 +86,7 @@ struct Program::Linked {
   std::vector<Input> inputs;
   PassTargets targets;  // a full-screen pass in its compute form writes to these formats
   glm::ivec2 groupSize{1};
+  bool waitsForCommands = false;
   VertexArrayHandle emptyVertexArray;
 
   void findLocations();
@@ -90,7 +102,10 @@ Program::Program(ProgramHandle handle, ProgramKind kind, std::string label,
   for (ShaderInput& input : inputs) linked->inputs.push_back({.declared = std::move(input)});
   linked->findLocations();
   linked->targets = std::move(targets);
-  if (kind == ProgramKind::kCompute) linked->groupSize = groupSizeOf(linked->handle);
+  if (kind == ProgramKind::kCompute) {
+    linked->groupSize = groupSizeOf(linked->handle);
+    linked->waitsForCommands = waitsForCommands();
+  }
   linked->emptyVertexArray = VertexArrayHandle::make();
   linked_ = std::move(linked);
 }
@@ -326,6 +341,15 @@ void Program::dispatchIndirect(const Buffer& commands, std::size_t offsetBytes,
   glDispatchComputeIndirect(static_cast<GLintptr>(offsetBytes));
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
   glMemoryBarrier(barriers);
+}
+
+void Program::dispatchListed(const Buffer& commands, std::size_t offsetBytes, int most,
+                             GLbitfield barriers) {
+  if (linked_->waitsForCommands) {
+    dispatch({most, 1}, barriers);
+  } else {
+    dispatchIndirect(commands, offsetBytes, barriers);
+  }
 }
 
 PassTimer::Scope Program::measure() const {

@@ -113,6 +113,10 @@ class Program {
   /// three 32-bit counts, written before with GL_COMMAND_BARRIER_BIT among their barriers. None
   /// runs where one of them is 0.
   void dispatchIndirect(const Buffer& commands, std::size_t offsetBytes, GLbitfield barriers);
+  /// The same for a program that itself returns beyond the length of a list: over `most` items where
+  /// the driver would wait for the GPU to learn how many there are.
+  void dispatchListed(const Buffer& commands, std::size_t offsetBytes, int most,
+                      GLbitfield barriers);
   /// Times GL calls of the caller's own, which draw with this program, while the scope lives.
   [[nodiscard]] PassTimer::Scope measure() const;
 
@@ -123,7 +127,7 @@ class Program {
   };
   struct Linked;
 
-  /// Draws as many as the command says, one without.
+  /// Draws one instance, or as many as `command` holds.
   void drawTriangle(const Buffer* command = nullptr);
   const Input& input(ShaderInput::Kind kind, std::string_view name) const;
   /// Asserts that the program is the current one; -1 for a uniform that the compiler removed.

@@ -23,7 +23,7 @@ constexpr std::size_t kCellBytes = 64;  // shaders/anchor_cells.glsl
 constexpr int kMaxStrata = 4;           // along a cell's side (shaders/anchor_cells.glsl)
 constexpr unsigned kFirstModel = scene::kMaxPlanes;  // in SurfaceAccess::bodies
 constexpr GLbitfield kStored = GL_SHADER_STORAGE_BARRIER_BIT;
-constexpr std::array<std::uint32_t, 4> kNothingKept{0, 1, 1, 0};  // shaders/anchor_kept.glsl
+constexpr std::array<std::uint32_t, 4> kNoneOccupied{0, 1, 1, 0};  // shaders/occupied_slots.glsl
 
 glm::ivec2 gridOf(hal::FrameSize full, int cellPixels) {
   return {(full.width + cellPixels - 1) / cellPixels, (full.height + cellPixels - 1) / cellPixels};
@@ -84,11 +84,11 @@ struct AnchorSet::State {
         anchors(slots * sizeof(Anchor), gpu::BufferUsage::kDynamic),
         cells(static_cast<std::size_t>(grid.x * grid.y) * kCellBytes, gpu::BufferUsage::kDynamic),
         births((slots + 1) * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
-        kept((slots + 4) * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
+        occupied((slots + 4) * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
         noBodies(scene::SurfaceAccess::kBodyBytes, gpu::BufferUsage::kStatic),
         noIds(gpu::TextureFormat::kR32ui, {1, 1}) {
     anchors.write(std::vector<std::byte>(anchors.sizeBytes()));
-    kept.write(std::as_bytes(std::span(kNothingKept)));
+    occupied.write(std::as_bytes(std::span(kNoneOccupied)));
     cells.write(std::vector<std::byte>(cells.sizeBytes()));
   }
 
@@ -105,8 +105,8 @@ struct AnchorSet::State {
   gpu::Program spawn;
   gpu::Buffer anchors;
   gpu::Buffer cells;
-  gpu::Buffer births;  // the free slots, in order
-  gpu::Buffer kept;    // the others, which passes are dispatched for (shaders/anchor_kept.glsl)
+  gpu::Buffer births;    // the free slots, in order
+  gpu::Buffer occupied;  // passes are dispatched for these slots (shaders/occupied_slots.glsl)
   gpu::Buffer noBodies;
   gpu::Texture noIds;
   LayerTextures layerTextures;
@@ -145,9 +145,10 @@ struct AnchorSet::State {
         .set("strataSide", strataSide());
   }
 
-  /// Dispatches the program, which is in use, for all slots that were kept.
-  void dispatchKept(gpu::Program& program) {
-    program.storage("Kept", kept).dispatchIndirect(kept, 0, kStored);
+  /// Dispatches the program, which is in use, for all occupied slots.
+  void dispatchOccupied(gpu::Program& program) {
+    program.storage("OccupiedSlots", occupied)
+        .dispatchListed(occupied, 0, static_cast<int>(slots), kStored);
   }
 
   void carryOnSurfaces(const scene::ArFrame& frame);
@@ -199,7 +200,7 @@ void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionFie
       .set("underModels", hold.underModels ? 1 : 0)
       .set("follows", motion.follows() ? 1 : 0)
       .set("anew", hasBegunAnew ? 1 : 0);
-  dispatchKept(image);
+  dispatchOccupied(image);
 }
 
 void AnchorSet::State::countAnchors(const scene::ArFrame& frame, const AnchorHold& hold,
@@ -212,13 +213,13 @@ void AnchorSet::State::countAnchors(const scene::ArFrame& frame, const AnchorHol
       .set("fadeIn", fadeOf(step, hold.fadeIn))
       .set("fadeOut", fadeOf(step, hold.fadeOut))
       .set("moverFadeOut", fadeOf(step, std::min(hold.fadeOut, hold.moverFadeOut)));
-  dispatchKept(count);
+  dispatchOccupied(count);
   setFrame(beginCells(choice), frame)
       .texture("forms", frame.hasObjects ? *frame.forms : noIds)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .storage("Anchors", anchors)
       .storage("Cells", cells);
-  dispatchKept(choice);
+  dispatchOccupied(choice);
 }
 
 void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionField& motion,
@@ -241,7 +242,7 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .storage("Anchors", anchors)
       .storage("Cells", cells)
       .storage("Plan", births)
-      .storage("Kept", kept)
+      .storage("OccupiedSlots", occupied)
       .set("cellCount", static_cast<unsigned>(grid.x * grid.y))
       .dispatch({1, 1}, kStored | GL_COMMAND_BARRIER_BIT);
   const bool hasDepth = frame.hasObjects && frame.depth != nullptr && frame.surfaces.has_value();

@@ -81,6 +81,7 @@ void FrontMovers::State::spread(const scene::ArFrame& frame, const gpu::Texture&
   glMemoryBarrier(GL_FRAMEBUFFER_BARRIER_BIT);  // written as an image before
   targets.at(now).beginDiscarding();
   targets.at(now).clearColour(0, glm::vec4(0.0F));
+  glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);  // stores come after the clear
   find.use()
       .texture("labels", moverLabels)
       .texture("before", fronts.at(before))
@@ -92,7 +93,7 @@ void FrontMovers::State::spread(const scene::ArFrame& frame, const gpu::Texture&
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .storage("Hiding", hiding)
       .image("front", fronts.at(now), ImageAccess::kWrite);
-  blocks.dispatch(find, kStored | GL_COMMAND_BARRIER_BIT);
+  blocks.dispatch(find, kStored | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   hasPast = true;
 }
 
@@ -111,8 +112,10 @@ void FrontMovers::update(const scene::ArFrame& frame, const gpu::Texture& moverL
   s.spread(frame, moverLabels, blocks, isStanding, stepSeconds / kStaysSeconds);
   // Again, so that a fast mover is found as a whole within a few frames.
   s.spread(frame, moverLabels, blocks, false, 0.0F);
+  // spread() has waited for what wrote these as images before.
   s.seen.beginDiscarding();
   for (const int each : {0, 1}) s.seen.clearColour(each, glm::vec4(0.0F));
+  glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);  // stores come after the clear
   s.show.use()
       .texture("labels", moverLabels)
       .texture("shares", moverShares)

@@ -29,7 +29,7 @@ constexpr std::size_t kDetailLevel = 1;
 
 // Of shaders/stroke_lists.glsl: the commands that trace either list, in bytes, and what they are
 // before anything is listed.
-constexpr std::size_t kKnowingAll = 0;
+constexpr std::size_t kWithLabels = 0;
 constexpr std::size_t kMoversOnly = 16;
 constexpr std::array<std::uint32_t, 8> kEmptyLists{0, 1, 1, 0, 0, 1, 1, 0};
 
@@ -66,7 +66,7 @@ struct StrokeSet::State {
   std::uint32_t slots;
   gpu::Program carry;
   gpu::Program list;
-  std::optional<gpu::Program> traceKnowingAll;  // strokes that may meet models or segments
+  std::optional<gpu::Program> traceWithLabels;  // strokes that may meet models or segments
   std::optional<gpu::Program> traceMoversOnly;  // all others
   gpu::Program order;
   gpu::Program lay;
@@ -85,8 +85,8 @@ struct StrokeSet::State {
   glm::ivec2 allSlots() const { return {static_cast<int>(slots), 1}; }
   void carryWithObjects(const scene::ArFrame& frame, const AnchorSet& anchors,
                         const StrokeRule& rule);
-  /// Lists them and traces them: those that cannot meet models or segments by a smaller program,
-  /// which knows nothing of them.
+  /// Lists the strokes and traces them: those that cannot meet models or segments by a smaller
+  /// program, which knows nothing of these.
   void grow(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
             const StrokePaint& paint, const StrokeRule& rule, const MotionLayers* layers,
             const gpu::Texture* borders, hal::Duration step);
@@ -152,8 +152,8 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
     traceListed(program, groups, frame, anchors, field, paint, rule, layers, borders, step);
   };
   if (frame.mayHaveObjects() || borders != nullptr) {
-    if (!traceKnowingAll) traceKnowingAll = library.compute(kTrace);
-    trace(*traceKnowingAll, kKnowingAll);
+    if (!traceWithLabels) traceWithLabels = library.compute(kTrace);
+    trace(*traceWithLabels, kWithLabels);
   }
   if (borders == nullptr) {
     if (!traceMoversOnly) traceMoversOnly = library.compute(kTrace, {{"MOVERS_ONLY"}});
@@ -239,7 +239,7 @@ void StrokeSet::State::traceListed(gpu::Program& program, std::size_t groups,
         .set("hasObjects", frame.hasObjects ? 1 : 0);
   }
   rule.focus.bind(program);
-  program.dispatchIndirect(lists, groups, GL_SHADER_STORAGE_BARRIER_BIT);
+  program.dispatchListed(lists, groups, static_cast<int>(slots), GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void StrokeSet::State::layOut(const AnchorSet& anchors, const StrokeRule& rule) {

@@ -15,7 +15,7 @@ using marks::Anchor;
 
 namespace {
 
-/// By which part the area of what is within `rect`, and followed, changes on the screen.
+/// The relative change of the screen area of the followed pixels within `rect`.
 double growthOf(const MotionMap& motion, const cv::Rect& rect) {
   constexpr float kMost = 2;  // of a place: beside what comes before it, it is not smooth
   if (motion.shift) return 0;

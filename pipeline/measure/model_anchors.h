@@ -28,8 +28,8 @@ struct ModelAnchorSummary {
   std::size_t frames = 0;
   double anchors = 0, births = 0, deaths = 0;
   double turnoverPercent = 0;     ///< births and deaths, relative to the anchors
-  /// By how much what they are on grows or shrinks on the screen, in per cent of its area a frame:
-  /// as many marks have to come or go.
+  /// The mean absolute change of the models' screen area, in per cent of it a frame: as many marks
+  /// have to come or go.
   double resizedPercent = 0;
   std::optional<Drift> slip;      ///< from where the surface goes, a frame
   std::optional<Drift> longSlip;  ///< over ten frames

@@ -2,11 +2,11 @@
 //          dormant one that is the next to wake.
 // Inputs:  anchors; cells with the counts of anchor_count.comp; anchor_patch.glsl's.
 // Outputs: cells: keys, and the number of dormant anchors. One invocation per slot of
-//          anchor_kept.glsl's.
+//          occupied_slots.glsl's.
 // Precision: integers, so that order does not matter; highp for places.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"
-#include "pipeline/marks/shaders/anchor_kept.glsl"
+#include "pipeline/marks/shaders/occupied_slots.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
@@ -14,8 +14,8 @@ layout(std430, binding = 1) buffer Cells { Cell cells[]; };
 #include "pipeline/marks/shaders/anchor_patch.glsl"
 
 void main() {
-  if (gl_GlobalInvocationID.x >= keptCount) return;
-  uint slot = keptSlots[gl_GlobalInvocationID.x];
+  if (gl_GlobalInvocationID.x >= occupiedCount) return;
+  uint slot = occupiedSlots[gl_GlobalInvocationID.x];
   uint state = anchors[slot].state;
   bool sleeps = isDormant(state) && (state & kHidden) == 0u;
   if (!sleeps && !isCovered(state) && !isStaying(state)) return;

@@ -3,11 +3,11 @@
 // Inputs:  anchor_cells.glsl's; ids and forms (ArFrame) and their pixelsOfFull if hasObjects;
 //          fadeIn, fadeOut, moverFadeOut: the part of a fade that this frame completes.
 // Outputs: anchors; cells, whose counts were 0 (anchor_spawn.comp). One invocation per slot
-//          of anchor_kept.glsl's.
+//          of occupied_slots.glsl's.
 // Precision: highp; counts are integers, so that order does not matter.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"
-#include "pipeline/marks/shaders/anchor_kept.glsl"
+#include "pipeline/marks/shaders/occupied_slots.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer Anchors { Anchor anchors[]; };
@@ -18,8 +18,8 @@ uniform float moverFadeOut;
 #include "pipeline/marks/shaders/anchor_patch.glsl"
 
 void main() {
-  if (gl_GlobalInvocationID.x >= keptCount) return;
-  uint slot = keptSlots[gl_GlobalInvocationID.x];
+  if (gl_GlobalInvocationID.x >= occupiedCount) return;
+  uint slot = occupiedSlots[gl_GlobalInvocationID.x];
   uint state = anchors[slot].state;
   if (!isAlive(state)) return;
   bool isBehind = isCovered(state);

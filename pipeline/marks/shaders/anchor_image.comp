@@ -9,7 +9,7 @@
 //          underModels: anchors that a model covers stay, as those do that a mover covers;
 //          follows: whether anchors move; if not, surface anchors rest like all others, and neither
 //          appearance nor labels count; anew: whether all anchors are removed.
-// Outputs: anchors. One invocation per slot of anchor_kept.glsl's.
+// Outputs: anchors. One invocation per slot of occupied_slots.glsl's.
 // Precision: highp.
 #include "pipeline/marks/shaders/image_motion.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
@@ -31,7 +31,7 @@ uniform uint firstModel;
 uniform bool restsWithCamera;
 uniform bool underModels;
 #include "pipeline/marks/shaders/anchor_appearance.glsl"
-#include "pipeline/marks/shaders/anchor_kept.glsl"
+#include "pipeline/marks/shaders/occupied_slots.glsl"
 #include "pipeline/marks/shaders/layer_blocks.glsl"
 #include "pipeline/marks/shaders/mover_motion.glsl"
 
@@ -127,8 +127,8 @@ uint coveredFor(uint state) {
 }
 
 void main() {
-  if (gl_GlobalInvocationID.x >= keptCount) return;
-  uint slot = keptSlots[gl_GlobalInvocationID.x];
+  if (gl_GlobalInvocationID.x >= occupiedCount) return;
+  uint slot = occupiedSlots[gl_GlobalInvocationID.x];
   uint state = anchors[slot].state;
   if (anew) {
     anchors[slot].state = 0u;

@@ -2,11 +2,11 @@
 //          slots; where none is free, one of a dormant anchor, then of a covered one. A single work group.
 // Inputs:  anchors, slots of them; births of the cells, cellCount of them.
 // Outputs: cells: the index of the cell's first spawn; plan: the number of free slots, then the
-//          slots; kept: anchor_kept.glsl's.
+//          slots; occupied_slots.glsl's, for the next frame.
 // Precision: integers.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"
-#include "pipeline/marks/shaders/anchor_kept.glsl"
+#include "pipeline/marks/shaders/occupied_slots.glsl"
 #include "pipeline/marks/shaders/anchor_slots.glsl"
 layout(local_size_x = 128) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
@@ -64,21 +64,18 @@ void main() {
   uint unused = freeBefore[127] + dormantBefore[127];
   if (me == 127u) {
     freeCount = unused + coveredBefore[127];
-    uint kept = slots - freeBefore[127] + min(bornBefore[127], freeBefore[127]);
-    keptCount = kept;
-    keptGroups = uint[3]((kept + kKeptGroup - 1u) / kKeptGroup, 1u, 1u);
+    occupiedCount = slots - freeBefore[127] + min(bornBefore[127], freeBefore[127]);
+    occupiedGroups[0] = (occupiedCount + kSlotGroup - 1u) / kSlotGroup;
   }
-  // What the scan knows is not kept in registers.
-  uint last = max(me, 1u) - 1u;
-  uint next = me == 0u ? 0u : freeBefore[last];
-  uint nextDormant = freeBefore[127] + (me == 0u ? 0u : dormantBefore[last]);
-  uint nextCovered = unused + (me == 0u ? 0u : coveredBefore[last]);
+  uint next = freeBefore[me] - free;
+  uint nextDormant = freeBefore[127] + dormantBefore[me] - dormant;
+  uint nextCovered = unused + coveredBefore[me] - covered;
   for (uint i = firstSlot; i < endSlot; ++i) {
     uint state = anchors[i].state;
     bool isFree = !isAlive(state) && !isDormant(state);
     // Before it are as many free slots as `next`, of which births take the first.
     uint births = bornBefore[127];
-    if (!isFree || next < births) keptSlots[i - next + min(births, next)] = i;
+    if (!isFree || next < births) occupiedSlots[i - next + min(births, next)] = i;
     if (isDormant(state)) {
       freeSlots[nextDormant++] = i;
     } else if (isFree) {
@@ -87,7 +84,7 @@ void main() {
       freeSlots[nextCovered++] = i;
     }
   }
-  uint number = me == 0u ? 0u : bornBefore[last];
+  uint number = bornBefore[me] - born;
   for (uint i = firstCell; i < endCell; ++i) {
     cells[i].firstBirth = number;
     number += birthsOf(i);

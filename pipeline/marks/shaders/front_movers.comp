@@ -76,6 +76,6 @@ void main() {
   ivec2 pixel = ivec2((vec2(cell) + 0.5) * kLayerCellPixels * pixelsOfFull);
   uint object = objectOf(texelFetch(ids, min(pixel, textureSize(ids, 0) - 1), 0).r);
   bool hides = stays > 0.0 && (object == 0u || isVirtual(object));
-  if (hides) hiding.instanceCount = 1u;  // whoever writes it
+  if (hides) hiding.instanceCount = 1u;  // all write the same
   imageStore(front, cell, vec4(stays, hides ? 1.0 : 0.0, 0.0, 0.0));
 }

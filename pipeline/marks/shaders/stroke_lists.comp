@@ -1,9 +1,10 @@
-// Purpose: lists the strokes that there are by the program that is to trace them (stroke_lists.glsl).
-//          The order of a list is left to chance: each stroke is traced by itself, in its slot.
+// Purpose: lists the strokes of alive anchors by the program that is to trace them
+//          (stroke_lists.glsl). The order of a list is left to chance: each stroke is traced by
+//          itself, in its slot, and reads no other one.
 // Inputs:  anchors, slots of them; hasObjects and objectBounds (ArFrame), pixelsOfFull;
 //          hasSegments; segment: the length of a step, px of the full image.
 // Outputs: lists, which stroke_order.comp has emptied; strokes: those without an anchor are not
-//          seen. One invocation per anchor.
+//          seen. One invocation per slot.
 // Precision: highp.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
@@ -32,7 +33,7 @@ void main() {
   bool isNear =
       hasObjects && reachesObjects(anchors[slot].px, segment, objectBounds, pixelsOfFull);
   bool knowsAll = hasSegments || isModel || isNear;
-  int list = knowsAll ? kKnowingAll : kMoversOnly;
+  int list = knowsAll ? kWithLabels : kMoversOnly;
   uint number = atomicAdd(lists[list + 3], 1u);
   atomicMax(lists[list], number / kTraceGroup + 1u);
   lists[listedAt(list, number, slots)] = slot;

@@ -4,12 +4,12 @@
 //          each with the length of its list; then a word for each slot: the slots of the first list
 //          from the beginning on, those of the second from the end back.
 // Precision: integers.
-const uint kTraceGroup = 64u;  // invocations of a group
-const int kKnowingAll = 0;  // words of commands, as in stroke_set.cpp
+const uint kTraceGroup = 64u;  // the local size of stroke_trace.comp
+const int kWithLabels = 0;  // words of commands, as in stroke_set.cpp
 const int kMoversOnly = 4;
 const int kListed = 8;
 
 // Where a list has its entry `number`.
 int listedAt(int list, uint number, uint slots) {
-  return kListed + int(list == kKnowingAll ? number : slots - 1u - number);
+  return kListed + int(list == kWithLabels ? number : slots - 1u - number);
 }

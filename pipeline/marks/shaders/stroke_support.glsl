@@ -1,6 +1,7 @@
 // Purpose: what a stroke is painted on, and the direction, the colour and the detail that it finds
 //          there: those of its own patch, segment or layer.
-// Defines: MOVERS_ONLY: there are no objects and no segments.
+// Defines: MOVERS_ONLY: there are no segments, and no stroke of these reaches an object
+//          (stroke_lists.comp): ids, labels and depth are not read.
 // Inputs:  field: tensors to follow, detailField: tensors with the detail; modelField,
 //          modelDetailField, moverField: those of virtual objects and of movers, each with its
 //          scale, px of the full image to texture coordinates; mover_places.glsl's and

@@ -4,7 +4,8 @@
 //          A stroke stays on what it lies on: it ends where its label does (stroke_label.glsl), or
 //          its depth makes a step.
 // Defines: stroke_support.glsl's.
-// Inputs:  anchors; StrokeLists: those that are traced (stroke_lists.glsl); stroke_walk.glsl's; background (marks::MotionLayers); ids (ArFrame) if
+// Inputs:  anchors, slots of them; StrokeLists: those that are traced (stroke_lists.glsl);
+//          stroke_walk.glsl's; background (marks::MotionLayers); ids (ArFrame) if
 //          hasObjects; depthRange: the near and the far plane in metres, 0: no depth; focalPx: of
 //          the full image, 0: not known; imageScale: the anchors', octaves; focus.glsl's; layer: its
 //          number and how many; the rest as in marks::StrokeRule.
@@ -45,7 +46,7 @@ uniform vec2 layer;
 #ifdef MOVERS_ONLY
 const int kList = kMoversOnly;
 #else
-const int kList = kKnowingAll;
+const int kList = kWithLabels;
 #endif
 const float kFocusDetail = 1.0;  // how much more detail counts in a focus
 
@@ -294,7 +295,8 @@ void main() {
   // The past ends where the stroke stands on clearly other content.
   float restless = isResting ? 0.0 : smoothstep(flatDetail.x, flatDetail.y, seen);
   // A surface carries its strokes exactly: what changes is how its field is seen.
-  float hold = isModel ? kModelHold : mix(1.0 / flatHold, 1.0, restless);
+  float most = isModel ? kModelHold : 1.0;
+  float hold = mix(min(1.0 / flatHold, most), most, restless);
   float stays = isOnMover ? past.x : pow(past.x, hold);
   vec3 change = colour - strokes[slot].colour;
   float changed = isNew ? 0.0 : smoothstep(otherColour.x, otherColour.y, weightedLength(change));

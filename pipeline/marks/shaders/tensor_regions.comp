@@ -45,7 +45,8 @@ const float kKnownPx = 4.0;  // of error: a motion that is less certain carries 
 
 const float kReach = 6.0;  // px: half a region, and the width of an edge
 
-// Whether a plane or a real thing may fill enough of a region: it shows in its middle or a corner.
+// Whether a plane may fill half of a region: what is convex shows in its middle or a corner then.
+// Other things are within objectBounds.
 bool mayShowSurface(ivec2 low, ivec2 high) {
   if (!hasSurfaces || !hasPast) return false;
   float shown = texelFetch(surfaceMotion, (low + high) / 2, 0).w;

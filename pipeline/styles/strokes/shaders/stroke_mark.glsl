@@ -49,8 +49,10 @@ vec2 markAt(vec2 place) {
   bool isSoft = abs(sense) > kSoftBristles;
   vec2 texel = 1.0 / vec2(textureSize(brushes, 0));
   vec2 aside = isSoft ? vec2(0.5, 1.0) * texel : vec2(0.0);
+  // Taps are not to read the next variant.
   float variant = floor(kVariants * brush.y) / kVariants;
-  vec2 rows = variant + vec2(0.5 * texel.y, 1.0 / kVariants - 0.5 * texel.y);
+  vec2 rows = isSoft ? variant + vec2(0.5 * texel.y, 1.0 / kVariants - 0.5 * texel.y)
+                     : vec2(0.0, 1.0);
   int taps = isSoft ? 4 : 1;
   vec2 sum = vec2(0.0);
   for (int i = 0; i < taps; ++i) {
