@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <random>
 #include <span>
 #include <utility>
@@ -340,6 +341,40 @@ TEST_F(ClipTest, BordersWhereSomethingMayBeAreThoseOfTheWholePicture) {
       EXPECT_GT(atBorders, 2000U);
     }
   }
+}
+
+/// Strokes far from models are traced by a smaller program, and regions of the field ask for no
+/// models there.
+TEST_F(ClipTest, APictureIsTheSameWhereverModelsAreLookedFor) {
+  constexpr glm::ivec4 kModel{24, 20, 58, 66};
+  setIds(kSize, [&](int x, int y) -> std::uint32_t {
+    return x >= kModel.x && y >= kModel.y && x < kModel.z && y < kModel.w ? 3 : 0;
+  });
+  const auto film = [&](std::optional<glm::ivec4> bounds) {
+    restart();
+    Painterly style(library_);
+    style.setParameters(style.parameters().with("stroke_size", "2.5"));
+    std::vector<std::vector<std::uint8_t>> painted;
+    for (int i = 0; i < 10; ++i) {
+      scene::ArFrame frame = next(1.5 * i, i == 0 ? 0.0 : 1.5);
+      frame.hasObjects = true;
+      frame.ids = &ids_;
+      frame.forms = &forms_;
+      frame.barycentrics = &zeros_;
+      frame.normalFocus = &picture_;
+      frame.objectBounds = bounds;
+      painted.push_back(paint(style, frame));
+    }
+    return painted;
+  };
+  const auto known = film(kModel);
+  const auto everywhere = film(std::nullopt);
+  const auto elsewhere = film(glm::ivec4(150, 110, 170, 130));
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    // The two programs may round differently, which changes single strokes by a level.
+    EXPECT_LT(meanDifference(known[i], everywhere[i]), 0.01) << "frame " << i;
+  }
+  EXPECT_GT(meanDifference(known.back(), elsewhere.back()), 0.1) << "the control";
 }
 
 /// A red disc on blue.
