@@ -140,7 +140,7 @@ void StrokeSet::State::listAll(const scene::ArFrame& frame, const AnchorSet& anc
       .set("objectBounds", frame.objectBoundsOrAll())
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .set("hasSegments", borders != nullptr ? 1 : 0)
-      .dispatch(allSlots(), GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+      .dispatch({1, 1}, GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
 void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchors,
@@ -247,7 +247,6 @@ void StrokeSet::State::layOut(const AnchorSet& anchors, const StrokeRule& rule) 
       .storage("Strokes", strokes)
       .storage("Ranks", ranks)
       .storage("Command", command)
-      .storage("StrokeLists", lists)
       .set("slots", slots)
       .set("stride", strideFor(slots))
       .set("vertices", static_cast<unsigned>(verticesOf(rule.quads)))

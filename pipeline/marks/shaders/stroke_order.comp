@@ -1,17 +1,14 @@
 // Purpose: the painting order of the visible strokes. It never changes during their lives and does
 //          not depend on their places. A single work group.
 // Inputs:  strokes, slots of them; stride: coprime to slots; vertices of each.
-// Outputs: ranks: of each slot, or none; command: glDrawArraysIndirect's; the lists of
-//          stroke_lists.glsl, empty for the next frame.
+// Outputs: ranks: of each slot, or none; command: glDrawArraysIndirect's.
 // Precision: integers.
 #include "pipeline/gpu/shaders/draw_command.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
-#include "pipeline/marks/shaders/stroke_lists.glsl"
 layout(local_size_x = 128) in;
 layout(std430, binding = 0) readonly buffer Strokes { Stroke strokes[]; };
 layout(std430, binding = 1) writeonly buffer Ranks { uint ranks[]; };
 layout(std430, binding = 2) volatile writeonly buffer Command { DrawCommand command; };
-layout(std430, binding = 3) writeonly buffer StrokeLists { uint lists[]; };
 uniform uint slots;
 uniform uint stride;
 uniform uint vertices;
@@ -38,7 +35,6 @@ void main() {
     barrier();
   }
   if (me == 127u) command = DrawCommand(vertices, seenBefore[127], 0u, 0u);
-  if (me < uint(kListed)) lists[me] = (me & 3u) == 1u || (me & 3u) == 2u ? 1u : 0u;
   uint rank = seenBefore[me] - seen;
   for (uint i = first; i < end; ++i) {
     uint slot = slotAt(i);
