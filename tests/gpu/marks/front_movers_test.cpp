@@ -3,10 +3,12 @@
 #include "pipeline/marks/front_movers.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -92,6 +94,14 @@ class FrontMoversTest : public AnchorLife {
     return static_cast<double>(hidden) / std::max(model, 1);
   }
 
+  /// How often the hidden parts are drawn.
+  std::uint32_t drawsOfHidden() const {
+    std::array<std::uint32_t, 4> command{};
+    EXPECT_TRUE(layers_->cover()->command->read(std::as_writable_bytes(std::span(command))));
+    EXPECT_EQ(command[0], 3U);
+    return command[1];
+  }
+
   /// The number of cells of the model, hidden or not, that count as movers.
   int moversOnModel() const {
     const hal::FrameSize cells = layers_->labels().size();
@@ -128,7 +138,9 @@ TEST_F(FrontMoversTest, WhatCoversTheFootprintHidesTheModel) {
   useBox(0.0);
   seeNothing(6);
   EXPECT_EQ(hiddenIn(disc(kMiddle, 200.0)), 0.0);
+  EXPECT_EQ(drawsOfHidden(), 0U);
   for (int i = 0; i < 3; ++i) see(disc(kMiddle + glm::dvec2(3.0 * i, 0.0), 22.0));
+  EXPECT_EQ(drawsOfHidden(), 1U);
   const glm::dvec2 hand = kMiddle + glm::dvec2(6.0, 0.0);
   EXPECT_GT(hiddenIn(disc(hand, 20.0)), 0.98);
   const Place around = disc(hand, 25.0);
@@ -142,6 +154,7 @@ TEST_F(FrontMoversTest, WhatCoversTheFootprintHidesTheModel) {
   }
   seeNothing(1);
   EXPECT_EQ(hiddenIn(disc(kMiddle, 200.0)), 0.0) << "it is back as soon as the hand has gone";
+  EXPECT_EQ(drawsOfHidden(), 0U);
 }
 
 TEST_F(FrontMoversTest, WhatPassesBehindStaysBehind) {
