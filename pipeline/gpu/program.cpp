@@ -66,10 +66,6 @@ GLuint groups(int items, int groupSize) {
   return static_cast<GLuint>((items + groupSize - 1) / groupSize);
 }
 
-}  // namespace
-
-namespace {
-
 /// Mesa's driver of V3D maps the command of an indirect dispatch, and waits for what writes it
 /// (v3d_launch_grid).
 bool waitsForCommands() {
@@ -282,26 +278,18 @@ void Program::drawFullscreen(const RenderTarget& target) {
     return;
   }
   target.beginDiscarding();
-  drawTriangle();
+  drawTriangle(nullptr);
 }
 
-void Program::drawArea(const RenderTarget& target, glm::ivec2 origin, hal::FrameSize size) {
+void Program::drawArea(const RenderTarget& target, glm::ivec2 origin, hal::FrameSize size,
+                       const Buffer* command) {
   assert(linked_->targets.empty());
+  assert(command == nullptr || command->sizeBytes() >= kDrawCommandBytes);
   assert(origin.x >= 0 && origin.y >= 0 && origin.x + size.width <= target.size().width &&
          origin.y + size.height <= target.size().height);
   target.beginKeeping();
   glViewport(origin.x, origin.y, size.width, size.height);
-  drawTriangle();
-}
-
-void Program::drawAreaIndirect(const RenderTarget& target, glm::ivec2 origin, hal::FrameSize size,
-                               const Buffer& command) {
-  assert(linked_->targets.empty() && command.sizeBytes() >= kDrawCommandBytes);
-  assert(origin.x >= 0 && origin.y >= 0 && origin.x + size.width <= target.size().width &&
-         origin.y + size.height <= target.size().height);
-  target.beginKeeping();
-  glViewport(origin.x, origin.y, size.width, size.height);
-  drawTriangle(&command);
+  drawTriangle(command);
 }
 
 void Program::drawTriangle(const Buffer* command) {

@@ -98,13 +98,12 @@ class Program {
   /// in the target is lost, its depth too. Precondition: the target has the formats that a pass in
   /// its compute form was made for.
   void drawFullscreen(const RenderTarget& target);
-  /// Runs the pass over a part of `target` only and keeps the rest. Not in its compute form.
-  void drawArea(const RenderTarget& target, glm::ivec2 origin, hal::FrameSize size);
-  /// The same where the GPU finds that there is something to draw: `command` is
-  /// glDrawArraysIndirect's (shaders/draw_command.glsl), of 3 vertices and one instance or none,
-  /// written before with GL_COMMAND_BARRIER_BIT among its barriers.
-  void drawAreaIndirect(const RenderTarget& target, glm::ivec2 origin, hal::FrameSize size,
-                        const Buffer& command);
+  /// Runs the pass over a part of `target` only and keeps the rest. Not in its compute form. With
+  /// `command`, the GPU decides whether: it is glDrawArraysIndirect's (shaders/draw_command.glsl),
+  /// of 3 vertices and one instance or none, written before with GL_COMMAND_BARRIER_BIT among its
+  /// barriers.
+  void drawArea(const RenderTarget& target, glm::ivec2 origin, hal::FrameSize size,
+                const Buffer* command = nullptr);
   /// Runs a compute program over `items` invocations, rounded up to whole groups (at most
   /// kMaxGroups along each axis), then makes its writes visible to what `barriers`
   /// (GL_*_BARRIER_BIT) names.
@@ -128,7 +127,7 @@ class Program {
   struct Linked;
 
   /// Draws one instance, or as many as `command` holds.
-  void drawTriangle(const Buffer* command = nullptr);
+  void drawTriangle(const Buffer* command);
   const Input& input(ShaderInput::Kind kind, std::string_view name) const;
   /// Asserts that the program is the current one; -1 for a uniform that the compiler removed.
   GLint location(std::string_view uniform, std::string_view type) const;

@@ -27,8 +27,8 @@ constexpr unsigned kFormLabels = 4095;
 // the level of the field whose detail decides where a layer is painted
 constexpr std::size_t kDetailLevel = 1;
 
-// Of shaders/stroke_lists.glsl: the commands that trace either list, in bytes, and what they are
-// before anything is listed.
+// The commands that trace either list (shaders/stroke_lists.glsl), in bytes, and their words before
+// anything is listed.
 constexpr std::size_t kWithLabels = 0;
 constexpr std::size_t kMoversOnly = 16;
 constexpr std::array<std::uint32_t, 8> kEmptyLists{0, 1, 1, 0, 0, 1, 1, 0};

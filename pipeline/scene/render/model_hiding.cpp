@@ -39,15 +39,14 @@ void ModelHiding::hide(const ArFrame& frame, const ModelCover& before) {
       .texture("camera", *frame.cameraColour)
       .texture("front", *before.places)
       .set("size", size)
-      .drawAreaIndirect(*frame.composition->picture, {0, 0}, frame.size(), *before.command);
+      .drawArea(*frame.composition->picture, {0, 0}, frame.size(), before.command);
   const gpu::RenderTarget* const surfaces = frame.composition->surfaces;
   if (surfaces == nullptr) return;
   const glm::ivec4 bounds(frame.objectBoundsOrAll());
   const glm::ivec2 extent = glm::ivec2(bounds.z, bounds.w) - glm::ivec2(bounds.x, bounds.y);
   if (extent.x <= 0 || extent.y <= 0) return;
   surfaces_.use().texture("front", *before.places).set("size", size);
-  surfaces_.drawAreaIndirect(*surfaces, {bounds.x, bounds.y}, {extent.x, extent.y},
-                             *before.command);
+  surfaces_.drawArea(*surfaces, {bounds.x, bounds.y}, {extent.x, extent.y}, before.command);
 }
 
 }  // namespace pleinair::scene

@@ -43,8 +43,8 @@ vec2 brushPlace() {
 }
 
 // Coverage and height. The side of a stroke is smooth: a step would look different with each part
-// of a pixel that the stroke moves. So would bristles that are thinner than two pixels; they go
-// where strokes are carried by models and movers.
+// of a pixel that the stroke moves. So would bristles of two texels, which are a pixel in the
+// finest strokes; they go where strokes are carried by models and movers.
 vec2 markAt(vec2 place) {
   bool isSoft = abs(sense) > kSoftBristles;
   vec2 texel = 1.0 / vec2(textureSize(brushes, 0));
