@@ -29,6 +29,7 @@ gpu::ShaderLibrary makeLibrary(const PainterOptions& options, const gpu::Context
   styles::addStyleShaders(library);
   library.setCancellation(options.isCancelled);
   library.setPassForm(options.passForm.value_or(gpu::fasterPassForm(context)));
+  library.setListDispatch(options.listDispatch.value_or(gpu::fasterListDispatch(context)));
   return library;
 }
 

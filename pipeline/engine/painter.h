@@ -19,6 +19,7 @@
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/gpu/gpu_loss.h"
 #include "pipeline/gpu/imported_texture.h"
+#include "pipeline/gpu/list_dispatch.h"
 #include "pipeline/gpu/pass_timer.h"
 #include "pipeline/marks/anchor.h"
 #include "pipeline/overlay/overlay_renderer.h"
@@ -88,6 +89,8 @@ struct PainterOptions {
   void* windows = nullptr;
   /// How full-screen passes run; unset: as is faster on the GPU.
   std::optional<gpu::PassForm> passForm = std::nullopt;
+  /// How programs run over lists that the GPU makes; unset: as is faster on the GPU.
+  std::optional<gpu::ListDispatch> listDispatch = std::nullopt;
   /// Replaces answers of the driver, in tests.
   gpu::GpuTestHook testHook = {};
 };

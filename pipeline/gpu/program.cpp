@@ -62,17 +62,6 @@ const char* nameOf(ShaderInput::Kind kind) {
   return "";
 }
 
-GLuint groups(int items, int groupSize) {
-  return static_cast<GLuint>((items + groupSize - 1) / groupSize);
-}
-
-/// Mesa's driver of V3D maps the command of an indirect dispatch, and waits for what writes it
-/// (v3d_launch_grid).
-bool waitsForCommands() {
-  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  return renderer != nullptr && std::string_view(renderer).starts_with("V3D");
-}
-
 }  // namespace
 
 struct Program::Linked {
@@ -82,14 +71,15 @@ struct Program::Linked {
   std::vector<Input> inputs;
   PassTargets targets;  // a full-screen pass in its compute form writes to these formats
   glm::ivec2 groupSize{1};
-  bool waitsForCommands = false;
+  ListDispatch listDispatch = ListDispatch::kIndirect;
   VertexArrayHandle emptyVertexArray;
 
   void findLocations();
 };
 
 Program::Program(ProgramHandle handle, ProgramKind kind, std::string label,
-                 std::vector<ShaderInput> inputs, TimerSlot timer, PassTargets targets)
+                 std::vector<ShaderInput> inputs, TimerSlot timer, PassTargets targets,
+                 ListDispatch listDispatch)
     : timer_(std::move(timer)) {
   auto linked = std::make_shared<Linked>();
   linked->handle = std::move(handle);
@@ -98,10 +88,8 @@ Program::Program(ProgramHandle handle, ProgramKind kind, std::string label,
   for (ShaderInput& input : inputs) linked->inputs.push_back({.declared = std::move(input)});
   linked->findLocations();
   linked->targets = std::move(targets);
-  if (kind == ProgramKind::kCompute) {
-    linked->groupSize = groupSizeOf(linked->handle);
-    linked->waitsForCommands = waitsForCommands();
-  }
+  if (kind == ProgramKind::kCompute) linked->groupSize = groupSizeOf(linked->handle);
+  linked->listDispatch = listDispatch;
   linked->emptyVertexArray = VertexArrayHandle::make();
   linked_ = std::move(linked);
 }
@@ -312,11 +300,17 @@ void Program::drawTriangle(const Buffer* command) {
 void Program::dispatch(glm::ivec2 items, GLbitfield barriers) {
   assert(items.x > 0 && items.y > 0);
   assert(isCurrent(linked_->handle));
-  const GLuint across = groups(items.x, linked_->groupSize.x);
-  const GLuint down = groups(items.y, linked_->groupSize.y);
-  assert(across <= kMaxGroups && down <= kMaxGroups);
+  dispatchGroups(groupsFor(items), barriers);
+}
+
+glm::ivec2 Program::groupsFor(glm::ivec2 items) const {
+  return (items + linked_->groupSize - 1) / linked_->groupSize;
+}
+
+void Program::dispatchGroups(glm::ivec2 groups, GLbitfield barriers) {
+  assert(glm::all(glm::lessThanEqual(groups, glm::ivec2(kMaxGroups))));
   const PassTimer::Scope scope = measure();
-  glDispatchCompute(across, down, 1);
+  glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y), 1);
   glMemoryBarrier(barriers);
 }
 
@@ -331,10 +325,11 @@ void Program::dispatchIndirect(const Buffer& commands, std::size_t offsetBytes,
   glMemoryBarrier(barriers);
 }
 
-void Program::dispatchListed(const Buffer& commands, std::size_t offsetBytes, int most,
+void Program::dispatchListed(const Buffer& commands, std::size_t offsetBytes, glm::ivec2 mostGroups,
                              GLbitfield barriers) {
-  if (linked_->waitsForCommands) {
-    dispatch({most, 1}, barriers);
+  if (linked_->listDispatch == ListDispatch::kAllGroups) {
+    assert(isCurrent(linked_->handle));
+    dispatchGroups(mostGroups, barriers);
   } else {
     dispatchIndirect(commands, offsetBytes, barriers);
   }

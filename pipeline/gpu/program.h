@@ -15,6 +15,7 @@
 
 #include "pipeline/gpu/buffer.h"
 #include "pipeline/gpu/handle.h"
+#include "pipeline/gpu/list_dispatch.h"
 #include "pipeline/gpu/pass_form.h"
 #include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/render_target.h"
@@ -55,9 +56,11 @@ class Program {
 
   Program() = default;
   /// `inputs` are all that its shaders' texts declare. `targets`: of a full-screen pass in its
-  /// compute form (PassForm), the formats of what it writes to.
+  /// compute form (PassForm), the formats of what it writes to. `listDispatch`: of
+  /// dispatchListed().
   Program(ProgramHandle handle, ProgramKind kind, std::string label,
-          std::vector<ShaderInput> inputs, TimerSlot timer, PassTargets targets = {});
+          std::vector<ShaderInput> inputs, TimerSlot timer, PassTargets targets = {},
+          ListDispatch listDispatch = ListDispatch::kIndirect);
 
   /// The fragment or compute shader's name, with the defines that it was made with.
   const std::string& label() const;
@@ -112,14 +115,17 @@ class Program {
   /// three 32-bit counts, written before with GL_COMMAND_BARRIER_BIT among their barriers. None
   /// runs where one of them is 0.
   void dispatchIndirect(const Buffer& commands, std::size_t offsetBytes, GLbitfield barriers);
-  /// The same for a program that itself returns beyond the length of a list: over `most` items where
-  /// the driver would wait for the GPU to learn how many there are.
-  void dispatchListed(const Buffer& commands, std::size_t offsetBytes, int most,
+  /// The same for a program that itself returns in groups beyond the command, with
+  /// ListDispatch::kAllGroups over `mostGroups`.
+  void dispatchListed(const Buffer& commands, std::size_t offsetBytes, glm::ivec2 mostGroups,
                       GLbitfield barriers);
+  /// Groups that dispatch() would run for so many items.
+  glm::ivec2 groupsFor(glm::ivec2 items) const;
   /// Times GL calls of the caller's own, which draw with this program, while the scope lives.
   [[nodiscard]] PassTimer::Scope measure() const;
 
  private:
+  void dispatchGroups(glm::ivec2 groups, GLbitfield barriers);
   struct Input {
     ShaderInput declared;
     GLint location = -1;  // of uniforms and samplers that the compiler kept

@@ -240,7 +240,8 @@ Program ShaderLibrary::link(ProgramKind kind, std::span<const ShaderHandle> shad
   std::vector<ShaderInput> inputs;
   for (const Expansion* source : sources) addInputs(source->text, inputs);
   ++compiled_;
-  return {std::move(program), kind, std::move(label), std::move(inputs), timer_, targets};
+  return {std::move(program), kind, std::move(label), std::move(inputs), timer_, targets,
+          listDispatch_};
 }
 
 void ShaderLibrary::throwIfCancelled() const {

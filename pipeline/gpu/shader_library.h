@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pipeline/gpu/embedded_shader.h"
+#include "pipeline/gpu/list_dispatch.h"
 #include "pipeline/gpu/pass_form.h"
 #include "pipeline/gpu/program.h"
 
@@ -74,6 +75,8 @@ class ShaderLibrary {
   /// The form of full-screen passes that are made from now on. Precondition of kCompute:
   /// hasComputeForm().
   void setPassForm(PassForm form) { passForm_ = form; }
+  /// How programs that are made from now on run over lists.
+  void setListDispatch(ListDispatch how) { listDispatch_ = how; }
 
   /// From now on, `isCancelled` is asked before each program is compiled, which throws a
   /// hal::Failure (kCancelled) where it says so; null: nothing is asked, as at first.
@@ -109,6 +112,7 @@ class ShaderLibrary {
   std::vector<EmbeddedShader> shaders_;
   std::function<bool()> isCancelled_;
   PassForm passForm_ = PassForm::kFragment;
+  ListDispatch listDispatch_ = ListDispatch::kIndirect;
   Program::TimerSlot timer_ = std::make_shared<PassTimer*>(nullptr);
   mutable std::map<std::string, Program> programs_;  // by keyOf()
   mutable std::size_t compiled_ = 0;

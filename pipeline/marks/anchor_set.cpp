@@ -148,7 +148,7 @@ struct AnchorSet::State {
   /// Dispatches the program, which is in use, for all occupied slots.
   void dispatchOccupied(gpu::Program& program) {
     program.storage("OccupiedSlots", occupied)
-        .dispatchListed(occupied, 0, static_cast<int>(slots), kStored);
+        .dispatchListed(occupied, 0, program.groupsFor(allSlots()), kStored);
   }
 
   void carryOnSurfaces(const scene::ArFrame& frame);

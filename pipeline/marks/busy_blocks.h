@@ -9,21 +9,30 @@
 
 namespace pleinair::marks {
 
+/// What a program is dispatched for: the commands of shaders/busy_blocks.glsl, by their first
+/// words.
+enum class BlockCommand : std::size_t {
+  kNear = 0,     ///< a group for each block that may be a mover's
+  kBusy = 3,     ///< a group for each block of the second list
+  kCount = 6,    ///< an invocation for each of these, 64 in a group
+  kParts = 9,    ///< one group, if there is a busy block
+  kGround = 12,  ///< an invocation for each block, 8 × 8 in a group, if there is a busy one
+  kMotion = 15,  ///< the same, or if there was one in the previous frame
+};
+
 /// The blocks in which MotionLayers::labels() and shares() may be other than 0, for passes that
 /// have nothing to do elsewhere: the second list of shaders/busy_blocks.glsl. Belongs to the
 /// layers, and holds until their next update.
 struct BusyBlocks {
   const gpu::Buffer* words = nullptr;  ///< of shaders/busy_blocks.glsl
-  std::size_t commandBytes = 0;  ///< offset of the command that dispatches a group for each block
-  glm::ivec2 grid{0};            ///< blocks
+  glm::ivec2 grid{0};                  ///< blocks
 
-  /// Dispatches a group for each block. Precondition: the program, which includes
-  /// shaders/busy_blocks.glsl, is in use.
-  void dispatch(gpu::Program& program, GLbitfield barriers) const {
-    program.storage("BusyBlocks", *words)
-        .set("grid", grid)
-        .dispatchIndirect(*words, commandBytes, barriers);
-  }
+  /// Binds them to a program that includes shaders/busy_blocks.glsl, and returns it. Precondition:
+  /// it is in use.
+  gpu::Program& bind(gpu::Program& program) const;
+  /// Binds them and dispatches the program, which returns where isBeyond() says so.
+  void dispatch(gpu::Program& program, GLbitfield barriers,
+                BlockCommand command = BlockCommand::kBusy) const;
 };
 
 }  // namespace pleinair::marks

@@ -33,12 +33,6 @@ constexpr unsigned kTurns = 2;  // shaders/motion_layers_tally.glsl
 constexpr std::size_t kTallied = 3;
 constexpr std::size_t kPartBytes = 60;  // shaders/mover_parts.glsl
 /// Places of commands in a buffer of words, and words, as in shaders/busy_blocks.glsl.
-constexpr std::size_t kNearCommand = 0;
-constexpr std::size_t kBusyCommand = 3;
-constexpr std::size_t kCountCommand = 6;
-constexpr std::size_t kPartsCommand = 9;
-constexpr std::size_t kGroundCommand = 12;
-constexpr std::size_t kMotionCommand = 15;
 constexpr std::size_t kBusyWords = 21;
 constexpr std::size_t kBusyWordsOfBlock = 3;
 constexpr std::size_t kRegistrations = 2;  // steps of shaders/mover_registration.comp
@@ -204,16 +198,15 @@ struct MotionLayers::State {
   /// Fills what both of the passes read that compare cells with the past.
   gpu::Program& beginToCompare(gpu::Program& program, const scene::ArFrame& frame,
                                const MotionField& motion, float stepSeconds);
+  BusyBlocks busyBlocks() const { return {&busy, blocks()}; }
   /// Binds the blocks that are listed. Precondition: the program is in use.
   gpu::Program& bindBusy(gpu::Program& program) const {
     if (program.hasUniform("turn")) program.set("turn", turn);
-    return program.storage("BusyBlocks", busy).set("grid", blocks());
+    return busyBlocks().bind(program);
   }
-  /// Runs a program over those of a list, or as often as follows from it.
-  void dispatchBusy(gpu::Program& program, std::size_t command) const {
-    program.dispatchIndirect(busy, command * sizeof(std::uint32_t), kStored);
+  void dispatchBusy(gpu::Program& program, BlockCommand command) const {
+    busyBlocks().dispatch(program, kStored, command);
   }
-  BusyBlocks busyBlocks() const { return {&busy, kBusyCommand * sizeof(std::uint32_t), blocks()}; }
   /// Which mover each cell of this frame's labels belongs to.
   void tellApart(const scene::ArFrame& frame, const MotionField& motion, float motionScale);
   /// How movers move, from dense flow at their edges and then from how they lie on the previous
@@ -276,18 +269,17 @@ void MotionLayers::State::tellApart(const scene::ArFrame& frame, const MotionFie
       .set("motionScale", motionScale)
       .set("reach", 1)
       .image("carried", carried, ImageAccess::kWrite);
-  dispatchBusy(carry, kBusyCommand);
+  dispatchBusy(carry, BlockCommand::kBusy);
   bindBusy(countParts.use())
       .texture("labels", labels.at(now))
       .texture("carried", carried)
       .storage("Blocks", parts);
-  dispatchBusy(countParts, kCountCommand);
+  dispatchBusy(countParts, BlockCommand::kCount);
   findParts.use()
       .texture("moverMotion", moverMotion())
       .storage("Blocks", parts)
-      .set("grid", blocks())
       .image("numbers", numbers, ImageAccess::kWrite);
-  dispatchBusy(findParts, kPartsCommand);
+  dispatchBusy(findParts, BlockCommand::kParts);
   bindBusy(number.use())
       .texture("labels", labels.at(now))
       .texture("picture", pictures.at(now))
@@ -295,7 +287,7 @@ void MotionLayers::State::tellApart(const scene::ArFrame& frame, const MotionFie
       .texture("numbers", numbers)
       .set("reach", 1)
       .image("shares", shares.at(now), ImageAccess::kWrite);
-  dispatchBusy(number, kBusyCommand);
+  dispatchBusy(number, BlockCommand::kBusy);
 }
 
 void MotionLayers::State::followMovers(const scene::ArFrame& frame, const MotionField& motion,
@@ -309,7 +301,7 @@ void MotionLayers::State::followMovers(const scene::ArFrame& frame, const Motion
       .set("motionScale", motionScale)
       .image("normals", normals.at(0), ImageAccess::kWrite)
       .image("normalFlow", normalFlow.at(0), ImageAccess::kWrite);
-  dispatchBusy(findEdges, kMotionCommand);
+  dispatchBusy(findEdges, BlockCommand::kMotion);
   const auto solve = [&](std::size_t which, float earlierScale, float fade, float damping) {
     const gpu::Texture& earlier = moverMotion();
     motionAt = 1 - motionAt;
@@ -321,7 +313,7 @@ void MotionLayers::State::followMovers(const scene::ArFrame& frame, const Motion
         .texture("normals", normals.at(which))
         .texture("normalFlow", normalFlow.at(which))
         .image("moverMotion", motions.at(motionAt), ImageAccess::kWrite);
-    dispatchBusy(findMotion, kMotionCommand);
+    dispatchBusy(findMotion, BlockCommand::kMotion);
   };
   solve(0, std::min(motionScale, kMostMotionScale), std::exp(-stepSeconds / kFadeSeconds),
         kFlowDamping);
@@ -340,7 +332,7 @@ void MotionLayers::State::followMovers(const scene::ArFrame& frame, const Motion
         .texture("edgeFlow", normalFlow.at(from))
         .image("normals", normals.at(1 - from), ImageAccess::kWrite)
         .image("normalFlow", normalFlow.at(1 - from), ImageAccess::kWrite);
-    dispatchBusy(registerMovers, kMotionCommand);
+    dispatchBusy(registerMovers, BlockCommand::kMotion);
     solve(1 - from, 1.0F, 1.0F, kDamping);
   }
   const gpu::Texture& found = moverMotion();
@@ -348,7 +340,7 @@ void MotionLayers::State::followMovers(const scene::ArFrame& frame, const Motion
   smoothMotion.use()
       .texture("found", found)
       .image("moverMotion", motions.at(motionAt), ImageAccess::kWrite);
-  dispatchBusy(smoothMotion, kMotionCommand);
+  dispatchBusy(smoothMotion, BlockCommand::kMotion);
 }
 
 MotionLayers::MotionLayers(const gpu::ShaderLibrary& library, hal::FrameSize full)
@@ -384,7 +376,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .texture("moverMotion", s.moverMotion())
       .texture("moverShares", s.shares.at(before))
       .set("motionScale", motionScale);
-  s.dispatchBusy(s.compareNear, kNearCommand);
+  s.dispatchBusy(s.compareNear, BlockCommand::kNear);
   s.bindBusy(s.markBusy.use()).storage("Blocks", s.parts).dispatch(s.blocks(), kStored);
   s.bindBusy(s.listBusy.use()).dispatch({1, 1}, kListed);
   s.findGround.use()
@@ -394,7 +386,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .texture("evidence", s.evidence)
       .texture("picture", s.pictures.at(s.now))
       .image("ground", s.ground, ImageAccess::kWrite);
-  s.dispatchBusy(s.findGround, kGroundCommand);
+  s.dispatchBusy(s.findGround, BlockCommand::kGround);
   gpu::Program& settle = isAtRest ? s.settleAtRest : s.settle;
   s.begin(settle, frame, motion, step);
   s.bindBusy(settle)
@@ -423,7 +415,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .set("noise", noiseOf(motion))
       .image("labels", s.labels.at(s.now), ImageAccess::kWrite)
       .image("backgroundNow", s.backgrounds.at(s.now), ImageAccess::kWrite);
-  s.dispatchBusy(s.join, kBusyCommand);
+  s.dispatchBusy(s.join, BlockCommand::kBusy);
   s.tellApart(frame, motion, motionScale);
   s.followMovers(frame, motion, motionScale, step);
   if (frame.hasObjects) {

@@ -239,7 +239,8 @@ void StrokeSet::State::traceListed(gpu::Program& program, std::size_t groups,
         .set("hasObjects", frame.hasObjects ? 1 : 0);
   }
   rule.focus.bind(program);
-  program.dispatchListed(lists, groups, static_cast<int>(slots), GL_SHADER_STORAGE_BARRIER_BIT);
+  program.dispatchListed(lists, groups, program.groupsFor({static_cast<int>(slots), 1}),
+                         GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void StrokeSet::State::layOut(const AnchorSet& anchors, const StrokeRule& rule) {

@@ -2,7 +2,8 @@
 //          costly passes of marks::MotionLayers are dispatched for (motion_layers_near_mark.comp,
 //          motion_layers_busy_mark.comp); all others remain background.
 // Inputs:  grid: blocks; layer_blocks.glsl's.
-// Outputs: functions. The buffer: commands for glDispatchComputeIndirect (x, y, z), then three words
+// Outputs: functions. A program that is dispatched by a command returns beyond it, since not every
+//          driver is given the command (gpu::Program::dispatchListed). The buffer: commands for glDispatchComputeIndirect (x, y, z), then three words
 //          a block: its flags, and two lists of blocks.
 // Precision: integers.
 #include "pipeline/marks/shaders/layer_blocks.glsl"
@@ -26,6 +27,8 @@ const int kBusyWords = 21;
 layout(std430, binding = 1) buffer BusyBlocks { uint busyWords[]; };
 uniform ivec2 grid;
 
+// Whether the invocation's group is not of a command's.
+bool isBeyond(int command) { return gl_WorkGroupID.x >= busyWords[command]; }
 int blockCount() { return grid.x * grid.y; }
 int flagsAt(ivec2 block) { return kBusyWords + block.y * grid.x + block.x; }
 int nearAt(int index) { return kBusyWords + blockCount() + index; }

@@ -18,6 +18,7 @@ uniform highp usampler2D ids;
 uniform vec2 pixelsOfFull;
 
 void main() {
+  if (isBeyond(kBusyCommand)) return;
   ivec2 block = blockOf(busyWords[busyAt(int(gl_WorkGroupID.x))]);
   ivec2 cell = block * kLayerBlock + ivec2(gl_LocalInvocationID.xy);
   if (any(greaterThanEqual(cell, imageSize(seenLabels)))) return;

@@ -63,6 +63,7 @@ float frontAround(ivec2 cell, ivec2 size) {
 }
 
 void main() {
+  if (isBeyond(kBusyCommand)) return;
   ivec2 block = blockOf(busyWords[busyAt(int(gl_WorkGroupID.x))]);
   ivec2 cell = block * kLayerBlock + ivec2(gl_LocalInvocationID.xy);
   ivec2 size = imageSize(front);

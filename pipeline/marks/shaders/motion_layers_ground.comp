@@ -2,12 +2,13 @@
 //          other content may be expected to look like if it has just been uncovered. It also
 //          counts the blocks with edges that have changed, and those of them that have kept their
 //          edges: most do if the light changes.
-// Inputs:  candidates, evidence (motion_layers.comp); picture: this frame's, in cells.
+// Inputs:  candidates, evidence (motion_layers.comp); picture: this frame's, in cells;
+//          busy_blocks.glsl's commands.
 // Outputs: ground RGBA16F: the colour times the share of the block that is background, and that
 //          share. changedBlocks, keptBlocks (motion_layers_tally.glsl). One invocation per block of
 //          kLayerBlock² cells.
 // Precision: highp.
-#include "pipeline/marks/shaders/layer_blocks.glsl"
+#include "pipeline/marks/shaders/busy_blocks.glsl"
 #include "pipeline/marks/shaders/motion_layers_tally.glsl"
 #include "pipeline/marks/shaders/structure.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -19,6 +20,7 @@ uniform highp sampler2D picture;
 const float kChanged = 0.3;  // of a block: then it counts
 
 void main() {
+  if (isBeyond(kGroundCommand)) return;
   ivec2 block = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(block, imageSize(ground)))) return;
   ivec2 first = block * kLayerBlock;

@@ -33,6 +33,7 @@ bool isLikeMover(vec3 now, vec2 back, float unlikeBackground) {
 }
 
 void main() {
+  if (isBeyond(kNearCommand)) return;
   uint block = busyWords[nearAt(int(gl_WorkGroupID.x))];
   ivec2 cell = blockOf(block) * kLayerBlock + ivec2(gl_LocalInvocationID.xy);
   if (any(greaterThanEqual(cell, imageSize(candidates)))) return;

@@ -35,6 +35,7 @@ float unlikeAround(ivec2 cell, vec2 back) {
 }
 
 void main() {
+  if (isBeyond(kBusyCommand)) return;
   ivec2 block = blockOf(busyWords[busyAt(int(gl_WorkGroupID.x))]);
   ivec2 cell = block * kLayerBlock + ivec2(gl_LocalInvocationID.xy);
   if (any(greaterThanEqual(cell, imageSize(carried)))) return;

@@ -2,7 +2,8 @@
 //          motion is not seen (the aperture problem): dense flow is 0 along a sleeve's outline,
 //          however fast the arm goes.
 // Inputs:  mover_shares.glsl's, picture: this frame's, in cells; motion_layers.glsl's, flow backward;
-//          mover_motion.glsl's, of the previous frame, and motionScale, this step over that.
+//          mover_motion.glsl's, of the previous frame, and motionScale, this step over that;
+//          busy_blocks.glsl's commands.
 // Outputs: normals RGBA16F: the sum over edges of w n nᵀ (xx, xy, yy), n the edge's normal;
 //          and how many of the block's cells are the mover's. The movers' blocks are one above the other.
 //          normalFlow RGBA16F: the sum of w n (n · d), d the flow's displacement since the previous
@@ -12,7 +13,7 @@
 //          per block of kLayerBlock² cells.
 // Precision: highp.
 #include "pipeline/gpu/shaders/luma.glsl"
-#include "pipeline/marks/shaders/layer_blocks.glsl"
+#include "pipeline/marks/shaders/busy_blocks.glsl"
 #include "pipeline/marks/shaders/motion_layers.glsl"
 #include "pipeline/marks/shaders/mover_motion.glsl"
 #include "pipeline/marks/shaders/mover_shares.glsl"
@@ -55,6 +56,7 @@ bool isBesideAnother(ivec2 cell, ivec2 size, int number) {
 }
 
 void main() {
+  if (isBeyond(kMotionCommand)) return;
   ivec2 block = ivec2(gl_GlobalInvocationID.xy);
   ivec2 blocks = ivec2(imageSize(normals).x, imageSize(normals).y / kMostMovers);
   if (any(greaterThanEqual(block, blocks))) return;

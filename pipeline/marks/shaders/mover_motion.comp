@@ -6,7 +6,7 @@
 // Inputs:  normals, normalFlow (mover_edges.comp, mover_registration.comp); earlier: what was found
 //          before, of which earlierScale (this step over its) is expected, and less where it was not
 //          clear: fade; damping: in each window, the weight of the wider one's motion, in parts of
-//          what is seen.
+//          what is seen; busy_blocks.glsl's commands.
 // Outputs: moverMotion RGBA16F: displacement since the previous frame, less the background's (px of
 //          the full image), times weight, and the weight, 0 where the mover is not near; the movers'
 //          blocks are one above the other. The highest mover of busy_blocks.glsl. One invocation per
@@ -113,6 +113,7 @@ vec4 motionAt(ivec2 block, ivec2 size, int row) {
 }
 
 void main() {
+  if (isBeyond(kMotionCommand)) return;
   ivec2 block = ivec2(gl_GlobalInvocationID.xy);
   ivec2 size = ivec2(imageSize(moverMotion).x, imageSize(moverMotion).y / 3);
   if (any(greaterThanEqual(block, size))) return;

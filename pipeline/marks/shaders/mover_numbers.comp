@@ -20,6 +20,7 @@ const int kFarthest = 8;    // cells
 const float kEnough = 0.5;  // of votes: fewer are of cells of other colours
 
 void main() {
+  if (isBeyond(kBusyCommand)) return;
   ivec2 block = blockOf(busyWords[busyAt(int(gl_WorkGroupID.x))]);
   ivec2 cell = block * kLayerBlock + ivec2(gl_LocalInvocationID.xy);
   ivec2 size = imageSize(shares);

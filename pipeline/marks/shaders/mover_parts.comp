@@ -4,18 +4,17 @@
 //          one number that are left in another one take its number. Of more than kMostParts parts, the
 //          last ones, row by row, take the first number.
 // Inputs:  blocks (mover_parts_count.comp): how many cells of each mover; mover_motion.glsl's: the
-//          previous frame's.
+//          previous frame's; busy_blocks.glsl's commands.
 // Outputs: numbers RGBA8, of 255: R: that of cells that have none; GBA: what the numbers 1 to 3
 //          become. One group of invocations for all blocks.
 // Precision: highp.
-#include "pipeline/marks/shaders/layer_blocks.glsl"
+#include "pipeline/marks/shaders/busy_blocks.glsl"
 #include "pipeline/marks/shaders/layer_cells.glsl"
 #include "pipeline/marks/shaders/mover_motion.glsl"
 #include "pipeline/marks/shaders/mover_parts.glsl"
 layout(local_size_x = 128) in;
 layout(rgba8, binding = 0) writeonly uniform highp image2D numbers;
 layout(std430, binding = 0) coherent buffer Blocks { MoverBlock blocks[]; };
-uniform ivec2 grid;
 
 const uint kMostParts = 64u;
 const int kBeside = 2;     // blocks between: of one mover that has just been found in two parts
@@ -147,6 +146,7 @@ void decide(uint i) {
 }
 
 void main() {
+  if (isBeyond(kPartsCommand)) return;
   uint lane = gl_LocalInvocationID.x;
   uint lanes = gl_WorkGroupSize.x;
   uint count = uint(grid.x * grid.y);

@@ -6,12 +6,12 @@
 // Inputs:  mover_shares.glsl's and picture: this frame's, in cells; lastShares, lastPicture: the
 //          previous frame's; mover_motion.glsl's, of this frame; motion_layers.glsl's; edges,
 //          edgeFlow: normals and normalFlow of mover_edges.comp or of the step before; noise: sigma of a cell's
-//          colour, in [0, 1].
+//          colour, in [0, 1]; busy_blocks.glsl's commands.
 // Outputs: normals, normalFlow: as of mover_edges.comp, n the gradient's direction and d the
 //          displacement that takes away the difference. One invocation per block of kLayerBlock²
 //          cells.
 // Precision: highp.
-#include "pipeline/marks/shaders/layer_blocks.glsl"
+#include "pipeline/marks/shaders/busy_blocks.glsl"
 #include "pipeline/marks/shaders/motion_layers.glsl"
 #include "pipeline/marks/shaders/mover_motion.glsl"
 #include "pipeline/marks/shaders/mover_shares.glsl"
@@ -101,6 +101,7 @@ void addCell(inout Sum sum, vec2 px, int number, vec2 displacement) {
 }
 
 void main() {
+  if (isBeyond(kMotionCommand)) return;
   ivec2 block = ivec2(gl_GlobalInvocationID.xy);
   ivec2 blocks = ivec2(imageSize(normals).x, imageSize(normals).y / kMostMovers);
   if (any(greaterThanEqual(block, blocks))) return;

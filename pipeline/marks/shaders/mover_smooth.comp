@@ -1,9 +1,10 @@
 // Purpose: the motion of movers without its noise from block to block: the mean of blocks around
 //          that move alike (Tomasi and Manduchi, "Bilateral filtering for gray and color images",
 //          1998), so that what is of one piece stays so, and a limb has a motion of its own.
-// Inputs:  found (mover_motion.comp).
+// Inputs:  found (mover_motion.comp); busy_blocks.glsl's commands.
 // Outputs: moverMotion: as of mover_motion.comp. One invocation per block.
 // Precision: highp.
+#include "pipeline/marks/shaders/busy_blocks.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D moverMotion;
 uniform highp sampler2D found;
@@ -32,6 +33,7 @@ vec4 smoothAt(ivec2 block, ivec2 size, int row) {
 }
 
 void main() {
+  if (isBeyond(kMotionCommand)) return;
   ivec2 block = ivec2(gl_GlobalInvocationID.xy);
   ivec2 size = ivec2(imageSize(moverMotion).x, imageSize(moverMotion).y / 3);
   if (any(greaterThanEqual(block, size))) return;

@@ -70,7 +70,6 @@ void StrokeStripMaker::lay(const gpu::Buffer& instances, const gpu::Buffer& draw
   }
   // Strokes of even quads are not asked whether they are carried.
   const bool byMovers = clipping.onlyMovers && !isEven;
-  const std::size_t busyBytes = byMovers ? clipping.onlyMovers->commandBytes : 0;
   offsets_.use()
       .storage("Drawn", drawn)
       .storage("Plans", strips.plans)
@@ -79,7 +78,7 @@ void StrokeStripMaker::lay(const gpu::Buffer& instances, const gpu::Buffer& draw
       .set("even", static_cast<unsigned>(even))
       .set("clips", clipping.clips ? 1 : 0)
       .set("byMovers", byMovers ? 1 : 0)
-      .set("busyWord", static_cast<unsigned>(busyBytes / sizeof(std::uint32_t)))
+      .set("busyWord", static_cast<unsigned>(marks::BlockCommand::kBusy))
       .dispatch({1, 1}, GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
   lay_.use()
       .storage("Instances", instances)

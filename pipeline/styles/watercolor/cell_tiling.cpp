@@ -44,8 +44,7 @@ using Groups = std::array<std::uint32_t, 3>;
 
 /// The groups that cover a picture; none along z, until seeds.comp finds a seed of a mover.
 Groups groupsOf(const gpu::Program& program, hal::FrameSize size) {
-  const glm::ivec2 groups =
-      (gpu::pixelBlocksOf(size) + program.groupSize() - 1) / program.groupSize();
+  const glm::ivec2 groups = program.groupsFor(gpu::pixelBlocksOf(size));
   return {static_cast<std::uint32_t>(groups.x), static_cast<std::uint32_t>(groups.y), 0};
 }
 
@@ -149,7 +148,8 @@ void CellTiling::findCells(const TilingFrame& input, const WatercolorParameters&
       .set("ofMovers", 0)
       .dispatch(gpu::pixelBlocksOf(size), kWritten);
   if (input.movers != nullptr) {
-    nearest.set("ofMovers", 1).dispatchIndirect(moverGroups_, 0, kWritten);
+    nearest.set("ofMovers", 1)
+        .dispatchListed(moverGroups_, 0, nearest.groupsFor(gpu::pixelBlocksOf(size)), kWritten);
   }
 }
 

@@ -222,10 +222,9 @@ class StripClippingTest : public StripTest {
   }
   /// `blocks`: how many are busy.
   StripClipping byMovers(std::uint32_t blocks) {
-    const std::array<std::uint32_t, 4> words{7, 7, blocks, 7};
+    const std::array<std::uint32_t, 4> words{7, 7, 7, blocks};
     words_ = gpu::Buffer::of(std::span<const std::uint32_t>(words), gpu::BufferUsage::kDynamic);
-    return {.clips = true,
-            .onlyMovers = marks::BusyBlocks{.words = &words_, .commandBytes = 8, .grid = {1, 1}}};
+    return {.clips = true, .onlyMovers = marks::BusyBlocks{.words = &words_, .grid = {1, 1}}};
   }
 
  private:

@@ -10,6 +10,7 @@ layout(local_size_x = 16, local_size_y = 8) in;
 layout(r32ui, binding = 0) writeonly uniform highp uimage2D borders;
 
 void main() {
+  if (isBeyond(kBusyCommand)) return;
   const int kInvocations = 128;  // of a group
   // Labels end well inside the blocks beside busy ones, which are listed, too; so do their borders.
   float side = float(kLayerBlock) * kLayerCellPixels;

@@ -260,6 +260,7 @@ void addPlaces(uint places, uint x, uint y, uint count) {
 }
 
 void main() {
+  if (ofMovers && moverGroups[2] == 0u) return;
   size = textureSize(picture, 0);
   corner = ivec2(gl_GlobalInvocationID.xy) * kBlockSide;
   if (any(greaterThanEqual(corner, size))) return;

@@ -1,0 +1,37 @@
+#include "pipeline/marks/busy_blocks.h"
+
+#include <cstdint>
+
+namespace pleinair::marks {
+namespace {
+
+/// The most groups that the command may have.
+glm::ivec2 mostGroups(BlockCommand command, glm::ivec2 grid) {
+  const int blocks = grid.x * grid.y;
+  switch (command) {
+    case BlockCommand::kNear:
+    case BlockCommand::kBusy:
+      return {blocks, 1};
+    case BlockCommand::kCount:
+      return {(blocks + 63) / 64, 1};
+    case BlockCommand::kParts:
+      return {1, 1};
+    case BlockCommand::kGround:
+    case BlockCommand::kMotion:
+      break;
+  }
+  return (grid + 7) / 8;
+}
+
+}  // namespace
+
+gpu::Program& BusyBlocks::bind(gpu::Program& program) const {
+  return program.storage("BusyBlocks", *words).set("grid", grid);
+}
+
+void BusyBlocks::dispatch(gpu::Program& program, GLbitfield barriers, BlockCommand command) const {
+  const std::size_t offsetBytes = static_cast<std::size_t>(command) * sizeof(std::uint32_t);
+  bind(program).dispatchListed(*words, offsetBytes, mostGroups(command, grid), barriers);
+}
+
+}  // namespace pleinair::marks
