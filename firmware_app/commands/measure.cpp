@@ -243,6 +243,7 @@ int measureConfigured(const MeasureOptions& options, const Configuration& config
                    .scene = composer ? scene::Scene{} : scene,
                    .style = painting.style,
                    .tracksTags = !composer && !scene.tags.empty(),
+                   .isCameraMounted = painting.isCameraMounted,
                    .shaderDirectory = options.shaderDirectory,
                    .expectedFormat = input->format(),
                    .qualityLevels = quality != 0,

@@ -23,6 +23,7 @@ struct CameraSettings {
   bool wait = false;                           ///< for a camera where there is none at the start
   config::PixelSize size{640, 480};            ///< made, or asked of a device, as the rate
   double framesPerSecond = 30.0;
+  bool isMounted = false;           ///< tracking::ImageMotionOptions::isMounted
   std::string exposure = "device";  ///< of a device (control_text.h), as the next three
   std::string gain = "device";
   std::string focus = "device";

@@ -76,6 +76,11 @@ const ParameterTable<CameraSettings>& cameraTable() {
                       {.min = 1, .max = 240, .unit = "frames a second"},
                       "How many frames the synthetic camera makes, or a device is asked for.",
                       TakesEffect::kRestart),
+      switchParameter(
+          "mounted", &CameraSettings::isMounted,
+          "Whether it is fixed to something that does not move, so that a person who is "
+          "close, before a plain wall, is not taken for its own motion.",
+          TakesEffect::kRestart),
       controlParameter("exposure", &CameraSettings::exposure, kExposureText,
                        "Of a device, in milliseconds; \"device\": as it is set."),
       controlParameter("gain", &CameraSettings::gain, kShareText,

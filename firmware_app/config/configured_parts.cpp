@@ -92,6 +92,7 @@ PaintingOptions configuredPainting(const Configuration& configuration, PaintingO
   options.view = painting.view == kFinishedView ? "" : painting.view;
   if (painting.size != config::PixelSize{}) options.size = frameSizeOf(painting.size);
   options.parameters = configuration.styleParameters();
+  options.isCameraMounted = configuration.camera().isMounted;
   const auto check = styles::styleKind(options.style).check;
   if (check != nullptr) hal::orThrow(check(*options.parameters));
   return options;

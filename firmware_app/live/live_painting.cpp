@@ -292,6 +292,7 @@ class LivePainting {
                                  .scene = job_.scene,
                                  .style = start->style,
                                  .tracksTags = job_.tracksTags(),
+                                 .isCameraMounted = job_.options.isCameraMounted,
                                  .shaderDirectory = job_.options.shaderDirectory,
                                  .passTiming = gpu::PassTiming::kSampled,
                                  .expectedFormat = stream_.frame,

@@ -79,6 +79,7 @@ class Painting {
                   .scene = job.scene,
                   .style = job.options.style,
                   .tracksTags = !job.scene.tags.empty() || job.options.poses,
+                  .isCameraMounted = job.options.isCameraMounted,
                   .shaderDirectory = job.options.shaderDirectory,
                   .expectedFormat = stream_.frame,
                   .overlay = job.overlay != nullptr,

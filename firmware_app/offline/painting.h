@@ -34,6 +34,7 @@ struct PaintingOptions {
   std::optional<std::filesystem::path> poses;
   std::optional<std::filesystem::path> contactSheet;
   std::filesystem::path shaderDirectory;
+  bool isCameraMounted = false;  ///< PainterOptions::isCameraMounted
 };
 
 /// The parameters that a painting begins with, live or not: those of the options, or else the

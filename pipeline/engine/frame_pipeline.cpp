@@ -92,6 +92,7 @@ FramePipeline::FramePipeline(const PainterOptions& options, PainterGl gl)
                                options.scene.models.empty() ? styles::SceneContents::kCameraOnly
                                                             : styles::SceneContents::kModels)),
       defaults_(style_->parameters()),
+      imageMotion_({.isMounted = options.isCameraMounted}),
       light_(makeLightEstimator(options)) {
   hal::orThrow(tracking::checkTagFamily(scene_.tagFamily));
   if (options.overlay) {

@@ -52,8 +52,8 @@ struct QualityLevel {
   std::string help;
 };
 
-/// All quality levels, best first. At each level a style takes about two thirds of the time of the
-/// level before. Work that does not depend on the picture's size (tracking, models, read-back)
+/// All quality levels, best first. At each level a style takes little more than half of the time of
+/// the level before. Work that does not depend on the picture's size (tracking, models, read-back)
 /// takes the same time at all levels.
 std::vector<QualityLevel> qualityLevels();
 
@@ -62,6 +62,7 @@ struct PainterOptions {
   scene::Scene scene;          ///< empty: the camera's image alone
   std::string style = "watercolor";
   bool tracksTags = true;  ///< if unset, no tag is detected and no model appears
+  bool isCameraMounted = false;  ///< tracking::ImageMotionOptions::isMounted
   PainterContext context = PainterContext::kOwn;
   std::filesystem::path shaderDirectory;  ///< overrides embedded shaders; empty: none
   gpu::PassTiming passTiming = gpu::PassTiming::kOff;

@@ -12,7 +12,7 @@
 namespace pleinair::tracking {
 struct ImageMotionEstimator::State {
   explicit State(const ImageMotionOptions& wanted)
-      : options(wanted), tracker(makeFeatureTracker(wanted.features)) {}
+      : options(wanted), tracker(makeFeatureTracker(wanted.features)), hold(wanted.isMounted) {}
 
   ImageMotionOptions options;
   LumaFrame own;  // for frames that come as luma alone

@@ -14,6 +14,10 @@ struct ImageMotionOptions {
   FeatureMethod features = FeatureMethod::kLucasKanade;
   bool flow = true;           ///< estimates dense flow
   bool staticRegions = true;  ///< detects static regions
+  /// The camera is fixed to something that does not move: only where nearly all of the image moves
+  /// as one, it moves. Else the image's dominant motion may be that of something large before a
+  /// plain wall, which the image cannot tell.
+  bool isMounted = false;
 };
 
 /// Measures the motion of a camera image in the image alone: features, the dominant motion, dense

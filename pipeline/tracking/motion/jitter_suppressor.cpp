@@ -26,6 +26,8 @@ constexpr double kMinErrorPx = 0.005;
 constexpr double kCalibrationPace = 0.15;  // weight of one frame
 constexpr double kMinCalibration = 0.7;
 constexpr double kMaxCalibration = 3.0;
+constexpr int kPlaceColumns = 8;
+constexpr int kPlaceRows = 6;
 
 /// A feature that has moved by less may be at rest.
 double bandOf(const PointPair& pair, double scale) {
@@ -94,28 +96,22 @@ void JitterSuppressor::releasePicture(const HomographyFit& fit, hal::FrameSize s
   }
 }
 
-/// A homography has room for the motion of a large thing that moves before a camera that stands,
-/// and even for a part of it: half of the image at rest, half of it moving looks like a shear.
-/// Where the fit contradicts what is at rest in more places than it hits, and most of the image is
-/// at rest, the camera stands. Places count and not features: a plain wall has few of them, a
-/// jacket many.
-bool JitterSuppressor::isMoversFit(const HomographyFit& fit, hal::FrameSize size, double scale) {
-  constexpr std::size_t kLeastPlaces = 4;
-  constexpr int kColumns = 8;
-  constexpr int kRows = 6;
-  // While the camera has stood until now, half as much will do.
-  const std::size_t weight = isHeld_ ? 2 : 1;
-  using Places = std::bitset<kColumns * kRows>;
+/// Places count and not features: a plain wall has few of them, a jacket many.
+JitterSuppressor::PlaceCounts JitterSuppressor::countPlaces(const HomographyFit& fit,
+                                                            hal::FrameSize size,
+                                                            double scale) const {
+  using Places = std::bitset<kPlaceColumns * kPlaceRows>;
   Places seen;
   Places atRest;
-  Places contradicted;  // at rest, although the fit moves them
-  Places hit;           // moved as the fit moves them
+  Places contradicted;
+  Places hit;
+  const auto partOf = [](double px, int sidePx, int parts) {
+    return std::clamp(static_cast<int>(parts * px / sidePx), 0, parts - 1);
+  };
   for (const PointPair& pair : pairs_) {
-    const int column =
-        std::clamp(static_cast<int>(kColumns * pair.current.x / size.width), 0, kColumns - 1);
-    const int row =
-        std::clamp(static_cast<int>(kRows * pair.current.y / size.height), 0, kRows - 1);
-    const auto place = static_cast<std::size_t>(kColumns * row + column);
+    const int row = partOf(pair.current.y, size.height, kPlaceRows);
+    const int column = partOf(pair.current.x, size.width, kPlaceColumns);
+    const auto place = static_cast<std::size_t>(kPlaceColumns * row + column);
     const double bandPx = bandOf(pair, scale);
     const glm::dvec2 fitted = movedBy(fit.currentFromPrevious, pair.previous);
     const bool isAtRest = glm::distance(pair.previous, pair.current) <= bandPx;
@@ -125,8 +121,30 @@ bool JitterSuppressor::isMoversFit(const HomographyFit& fit, hal::FrameSize size
     if (isAtRest) contradicted.set(place);
     if (glm::distance(fitted, pair.current) <= bandPx) hit.set(place);
   }
-  return contradicted.count() >= kLeastPlaces && weight * contradicted.count() >= hit.count() &&
-         2 * atRest.count() >= seen.count();
+  return {.seen = seen.count(),
+          .atRest = atRest.count(),
+          .contradicted = contradicted.count(),
+          .hit = hit.count()};
+}
+
+/// A homography has room for the motion of a large thing that moves before a camera that stands,
+/// and even for a part of it: half of the image at rest, half of it moving looks like a shear.
+/// Where the fit contradicts what is at rest in more places than it hits, and most of the image is
+/// at rest, the camera stands.
+bool JitterSuppressor::isMoversFit(const PlaceCounts& places) const {
+  constexpr std::size_t kLeastPlaces = 4;
+  // While the camera has stood until now, half as much will do.
+  const std::size_t weight = isHeld_ ? 2 : 1;
+  return places.contradicted >= kLeastPlaces && weight * places.contradicted >= places.hit &&
+         2 * places.atRest >= places.seen;
+}
+
+/// Whether a mounted camera has been pushed: all over the image, nearly everything moves as one,
+/// and next to nothing is at rest. Somebody who is close leaves some of the image.
+bool JitterSuppressor::isShifted(const PlaceCounts& places) {
+  constexpr std::size_t kLeastPlaces = kPlaceColumns * kPlaceRows * 2 / 3;
+  return places.seen >= kLeastPlaces && 10 * places.hit >= 8 * places.seen &&
+         10 * places.atRest <= places.seen;
 }
 
 /// Predictions assume white noise; a compressed movie's noise is not white. The features that
@@ -161,15 +179,18 @@ void JitterSuppressor::movePicture(hal::FrameSize size, double scale) {
   picture_.reset();
   isSettling_ = false;
   auto fit = fitter_.fit(pairs_, size);
+  if (!fit && isMounted_) picture_ = ImageHomography{.errorPx = kMinErrorPx * scale};
   if (!fit) return;
-  const bool stands = isMoversFit(*fit, size, scale);
+  const PlaceCounts places = countPlaces(*fit, size, scale);
+  const bool stands = isMounted_ ? !isShifted(places) : isMoversFit(places);
   if (stands) fit->currentFromPrevious = glm::dmat3(1.0);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const bool isAtRest =
         glm::distance(pairs_[i].previous, pairs_[i].current) <= bandOf(pairs_[i], scale);
     reported_[pairOf_[i]].agrees = stands ? isAtRest : fitter_.agrees(i);
   }
-  calibrate(*fit);
+  // A fit of what moves before a mounted camera says little of features.
+  if (!isMounted_ || 2 * places.atRest >= places.seen) calibrate(*fit);
   if (isHeld_) {
     suppressJitter(*fit, size, scale);
   } else {

@@ -18,6 +18,9 @@ namespace pleinair::tracking {
 /// released and the whole motion is reported at once. One thread at a time.
 class JitterSuppressor {
  public:
+  /// `isMounted`: ImageMotionOptions::isMounted.
+  explicit JitterSuppressor(bool isMounted = false) : isMounted_(isMounted) {}
+
   /// Takes the features seen in the next frame, px of the frame. `scale`: size of a px of the
   /// measured image, in frame px.
   void update(std::span<const SeenFeature> seen, hal::FrameSize size, double scale);
@@ -44,14 +47,25 @@ class JitterSuppressor {
     glm::dvec2 seenPx{0.0};
   };
 
+  /// In how many places of the image features …
+  struct PlaceCounts {
+    std::size_t seen = 0;
+    std::size_t atRest = 0;
+    std::size_t contradicted = 0;  ///< are at rest, although the fit moves them
+    std::size_t hit = 0;           ///< move as the fit moves them
+  };
+
   void match(std::span<const SeenFeature> seen);
-  bool isMoversFit(const HomographyFit& fit, hal::FrameSize size, double scale);
+  PlaceCounts countPlaces(const HomographyFit& fit, hal::FrameSize size, double scale) const;
+  bool isMoversFit(const PlaceCounts& places) const;
+  static bool isShifted(const PlaceCounts& places);
   void calibrate(const HomographyFit& fit);
   void movePicture(hal::FrameSize size, double scale);
   void suppressJitter(const HomographyFit& fit, hal::FrameSize size, double scale);
   void releasePicture(const HomographyFit& fit, hal::FrameSize size, double scale);
   void moveFeature(ReportedFeature& reported, double scale);
 
+  bool isMounted_;
   HomographyFitter fitter_;
   std::vector<ReportedFeature> reported_;  // by rising id
   std::vector<ReportedFeature> next_;

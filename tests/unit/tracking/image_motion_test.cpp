@@ -207,6 +207,63 @@ TEST(ImageMotion, ALargeThingThatMovesBeforeAPlainWallIsNotTheCamera) {
   }
 }
 
+/// In how many of 40 frames the camera is found to move while somebody sways before a plain wall,
+/// near enough to have all corners of the image.
+int framesThatMove(ImageMotionOptions options) {
+  Watch watch(options);
+  glm::dmat3 thingFromFrame(1.0);
+  int moving = 0;
+  for (int i = 0; i < 40; ++i) {
+    const glm::dvec2 sway(2.0 * std::cos(0.15 * i), 0.7 * std::sin(0.2 * i));
+    thingFromFrame = thingFromFrame * glm::inverse(currentFromPrevious({.shift = sway}, kSize));
+    WallView wall{.size = kSize, .noiseSigma = 1.0, .noiseSeed = 1U + static_cast<unsigned>(i)};
+    wall.contrast = 0.02;
+    hal::Image image = support::renderWall(wall);
+    WallView thing = wall;
+    thing.contrast = 1.0;
+    thing.wallFromFrame = thingFromFrame;
+    thing.wallSeed = 5;
+    support::overlayWall(image, thing, {90, 50}, {240, kSize.height});
+    const ImageMotion& motion = watch.see(image);
+    EXPECT_FALSE(motion.isCut && i > 0) << i;
+    const bool isAtRest = motion.picture && motion.picture->currentFromPrevious == glm::dmat3(1.0);
+    moving += i > 0 && !isAtRest ? 1 : 0;
+  }
+  return moving;
+}
+
+TEST(ImageMotion, AMountedCameraStandsWhoeverIsClose) {
+  EXPECT_EQ(framesThatMove({.isMounted = true}), 0);
+  EXPECT_GT(framesThatMove({}), 30) << "the image alone can tell";
+}
+
+TEST(ImageMotion, AMountedCameraMovesWhereAllOfTheImageDoes) {
+  Watch watch({.isMounted = true});
+  for (int i = 0; i < 8; ++i) watch.step(glm::dmat3(1.0));
+  const glm::dmat3 push = currentFromPrevious({.shift = {4.0, 1.0}}, kSize);
+  for (int i = 0; i < 4; ++i) {
+    const ImageMotion& motion = watch.step(push);
+    ASSERT_TRUE(motion.picture) << i;
+    EXPECT_LT(rmsMotion(glm::inverse(push) * motion.picture->currentFromPrevious, kSize), 0.2) << i;
+  }
+  for (int i = 0; i < 12; ++i) {
+    const ImageMotion& motion = watch.step(glm::dmat3(1.0));
+    ASSERT_TRUE(motion.picture) << i;
+    EXPECT_LT(rmsMotion(motion.picture->currentFromPrevious, kSize), 0.2) << i;
+  }
+}
+
+TEST(ImageMotion, AMountedCameraStandsBeforeNothing) {
+  Watch watch({.isMounted = true});
+  watch.view().contrast = 0.0;
+  watch.step(glm::dmat3(1.0));
+  for (int i = 0; i < 4; ++i) {
+    const ImageMotion& motion = watch.step(glm::dmat3(1.0));
+    ASSERT_TRUE(motion.picture) << i;
+    EXPECT_EQ(motion.picture->currentFromPrevious, glm::dmat3(1.0)) << i;
+  }
+}
+
 TEST(ImageMotion, ACoveredLensIsNoCutAndWhatItShowedIsFoundAgain) {
   Watch watch;
   const glm::dmat3 step = currentFromPrevious({.shift = {0.5, 0.0}}, kSize);
