@@ -34,6 +34,27 @@ double bandOf(const PointPair& pair, double scale) {
   return std::max(kBandPx * scale, kFeatureErrors * pair.errorPx);
 }
 
+using Places = std::bitset<kPlaceColumns * kPlaceRows>;
+
+std::size_t placeOf(const glm::dvec2& px, hal::FrameSize size) {
+  const auto partOf = [](double along, int sidePx, int parts) {
+    return std::clamp(static_cast<int>(parts * along / sidePx), 0, parts - 1);
+  };
+  const int row = partOf(px.y, size.height, kPlaceRows);
+  return static_cast<std::size_t>(kPlaceColumns * row + partOf(px.x, size.width, kPlaceColumns));
+}
+
+/// Precondition: there are some.
+double medianOf(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+bool isAtRest(const PointPair& pair, double scale) {
+  return glm::distance(pair.previous, pair.current) <= bandOf(pair, scale);
+}
+
 }  // namespace
 
 void JitterSuppressor::reset() {
@@ -100,25 +121,19 @@ void JitterSuppressor::releasePicture(const HomographyFit& fit, hal::FrameSize s
 JitterSuppressor::PlaceCounts JitterSuppressor::countPlaces(const HomographyFit& fit,
                                                             hal::FrameSize size,
                                                             double scale) const {
-  using Places = std::bitset<kPlaceColumns * kPlaceRows>;
   Places seen;
   Places atRest;
   Places contradicted;
   Places hit;
-  const auto partOf = [](double px, int sidePx, int parts) {
-    return std::clamp(static_cast<int>(parts * px / sidePx), 0, parts - 1);
-  };
   for (const PointPair& pair : pairs_) {
-    const int row = partOf(pair.current.y, size.height, kPlaceRows);
-    const int column = partOf(pair.current.x, size.width, kPlaceColumns);
-    const auto place = static_cast<std::size_t>(kPlaceColumns * row + column);
+    const std::size_t place = placeOf(pair.current, size);
     const double bandPx = bandOf(pair, scale);
     const glm::dvec2 fitted = movedBy(fit.currentFromPrevious, pair.previous);
-    const bool isAtRest = glm::distance(pair.previous, pair.current) <= bandPx;
+    const bool rests = isAtRest(pair, scale);
     seen.set(place);
-    if (isAtRest) atRest.set(place);
+    if (rests) atRest.set(place);
     if (glm::distance(fitted, pair.previous) <= bandPx) continue;
-    if (isAtRest) contradicted.set(place);
+    if (rests) contradicted.set(place);
     if (glm::distance(fitted, pair.current) <= bandPx) hit.set(place);
   }
   return {.seen = seen.count(),
@@ -137,6 +152,33 @@ bool JitterSuppressor::isMoversFit(const PlaceCounts& places) const {
   const std::size_t weight = isHeld_ ? 2 : 1;
   return places.contradicted >= kLeastPlaces && weight * places.contradicted >= places.hit &&
          2 * places.atRest >= places.seen;
+}
+
+/// A homography also has room for a mover between things at rest, without contradicting any. Where
+/// a good part of the image hardly moves, and the fit, if there is one, says less well how than no
+/// motion would, the camera stands. Errors are those that were predicted: calibrated ones have
+/// grown with the mover.
+bool JitterSuppressor::isRatherAtRest(const std::optional<HomographyFit>& fit, hal::FrameSize size,
+                                      double scale) {
+  const std::size_t leastPlaces = fit ? 8 : 4;
+  Places seen;
+  Places atRest;
+  apart_.clear();
+  moved_.clear();
+  for (const PointPair& pair : pairs_) {
+    const std::size_t place = placeOf(pair.current, size);
+    seen.set(place);
+    PointPair predicted = pair;
+    predicted.errorPx /= calibration_;
+    if (!isAtRest(predicted, scale)) continue;
+    atRest.set(place);
+    moved_.push_back(glm::distance(pair.previous, pair.current) / pair.errorPx);
+    if (!fit) continue;
+    const glm::dvec2 fitted = movedBy(fit->currentFromPrevious, pair.previous);
+    apart_.push_back(glm::distance(fitted, pair.current) / pair.errorPx);
+  }
+  if (atRest.count() < leastPlaces || 3 * atRest.count() < seen.count()) return false;
+  return !fit || medianOf(apart_) > medianOf(moved_);
 }
 
 /// Whether a mounted camera has been pushed: all over the image, nearly everything moves as one,
@@ -179,16 +221,17 @@ void JitterSuppressor::movePicture(hal::FrameSize size, double scale) {
   picture_.reset();
   isSettling_ = false;
   auto fit = fitter_.fit(pairs_, size);
-  if (!fit && isMounted_) picture_ = ImageHomography{.errorPx = kMinErrorPx * scale};
-  if (!fit) return;
-  const PlaceCounts places = countPlaces(*fit, size, scale);
-  const bool stands = isMounted_ ? !isShifted(places) : isMoversFit(places);
-  if (stands) fit->currentFromPrevious = glm::dmat3(1.0);
+  const PlaceCounts places = fit ? countPlaces(*fit, size, scale) : PlaceCounts{};
+  const bool stands =
+      isMounted_ ? !isShifted(places) : isMoversFit(places) || isRatherAtRest(fit, size, scale);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    const bool isAtRest =
-        glm::distance(pairs_[i].previous, pairs_[i].current) <= bandOf(pairs_[i], scale);
-    reported_[pairOf_[i]].agrees = stands ? isAtRest : fitter_.agrees(i);
+    reported_[pairOf_[i]].agrees = stands ? isAtRest(pairs_[i], scale) : fit && fitter_.agrees(i);
   }
+  if (!fit) {
+    if (stands && (isHeld_ || isMounted_)) picture_ = ImageHomography{.errorPx = kMinErrorPx * scale};
+    return;
+  }
+  if (stands) fit->currentFromPrevious = glm::dmat3(1.0);
   // A fit of what moves before a mounted camera says little of features.
   if (!isMounted_ || 2 * places.atRest >= places.seen) calibrate(*fit);
   if (isHeld_) {

@@ -59,6 +59,7 @@ class JitterSuppressor {
   PlaceCounts countPlaces(const HomographyFit& fit, hal::FrameSize size, double scale) const;
   bool isMoversFit(const PlaceCounts& places) const;
   static bool isShifted(const PlaceCounts& places);
+  bool isRatherAtRest(const std::optional<HomographyFit>& fit, hal::FrameSize size, double scale);
   void calibrate(const HomographyFit& fit);
   void movePicture(hal::FrameSize size, double scale);
   void suppressJitter(const HomographyFit& fit, hal::FrameSize size, double scale);
@@ -70,6 +71,8 @@ class JitterSuppressor {
   std::vector<ReportedFeature> reported_;  // by rising id
   std::vector<ReportedFeature> next_;
   std::vector<PointPair> pairs_;
+  std::vector<double> apart_;        // of features at rest, in predicted errors: from the fit …
+  std::vector<double> moved_;        // … and from where they were
   std::vector<std::size_t> pairOf_;  // index in reported_, per pair
   std::vector<FeatureMotion> motions_;
   std::optional<ImageHomography> picture_;
