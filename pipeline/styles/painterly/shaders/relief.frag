@@ -34,10 +34,10 @@ uniform float saturation;
 uniform float warmth;
 layout(location = 0) out vec4 picture;
 
-// Strokes that go with a model or a mover change the relief of each pixel, which glitters. On a
-// mover, thick paint is lit like that of no more than this relief.
+// Strokes that go with a model or a mover change the relief of each pixel, which glitters. A mover's
+// paint is lit like that of no more than this relief.
 const float kCarriedRelief = 0.75;
-const float kMoverRelief = 0.4;
+const float kMoverRelief = 0.9;
 
 // Dry paint stays on the substrate's heights; more paint reaches deeper.
 float caught(float height, float amount) {
@@ -59,7 +59,7 @@ void main() {
   vec2 slope = 0.5 * vec2(ne + se - nw - sw, sw + se - nw - ne) * relief;
   float moving = movingAt(gl_FragCoord.xy / pixelsOfFull);
   bool isModel = hasObjects && isVirtual(objectOf(texelFetch(ids, p, 0).r));
-  float onMover = min(kCarriedRelief, kMoverRelief / max(relief, 1e-3));
+  float onMover = min(1.0, kMoverRelief / max(relief, 1e-3));
   slope *= isModel ? kCarriedRelief : mix(1.0, onMover, moving);
   uint border = hasBorders ? texelFetch(borders, p, 0).r : 0u;
   // The heights of the two sides differ by a step that no paint has.
