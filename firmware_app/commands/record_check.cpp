@@ -82,9 +82,13 @@ int checkRecordOfWork(const RecordCheckOptions& options) {
   for (const std::string& note : reading.notes) spdlog::info("{}", note);
   printFindings(options.record, reading);
   if (!reading.findings.empty()) return static_cast<int>(ExitStatus::kInternal);
+  const auto& end = std::get<record::SignedOff>(reading.entries.back().event);
+  const bool isWhole = end.result == record::SignOff::kCompleted;
   writeText(stdout,
-            fmt::format("{}: {} lines, unchanged and signed off\n  final hash: {}\n",
-                        options.record.string(), reading.entries.size(), reading.finalHash()));
+            fmt::format("{}: {} lines, unchanged and signed off as {} by {}\n"
+                        "  final hash: {}\n",
+                        options.record.string(), reading.entries.size(),
+                        isWhole ? "completed" : "aborted", end.operatorName, reading.finalHash()));
   return 0;
 }
 

@@ -110,7 +110,8 @@ Column mainColumn(const StepShown& shown, int x, int width, const Measures& m) {
   const Procedure& procedure = *shown.procedure;
   const procedure::Words& words = procedure::wordsIn(shown.language);
   if (shown.step == procedure::kEnd) {
-    column.add(std::string(words.theEnd), m.px(21), kWhite, "Sans Bold");
+    column.add(std::string(shown.isAborted ? words.aborted : words.theEnd), m.px(21), kWhite,
+               "Sans Bold");
     return column;
   }
   const procedure::StepText& text = procedure.text(shown.step, shown.language);

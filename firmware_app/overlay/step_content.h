@@ -19,9 +19,10 @@ struct StepShown {
   std::size_t step = 0;            ///< index, or procedure::kEnd
   std::set<std::size_t> partsOff;  ///< when the step begins
   std::string language;
-  std::string request;  ///< what is asked for, with the keys: "Page Down: done"
-  std::string notice;   ///< what has gone wrong; empty: nothing
-  bool isDone = false;  ///< the request is fulfilled
+  std::string request;     ///< what is asked for, with the keys: "Page Down: done"
+  std::string notice;      ///< what has gone wrong; empty: nothing
+  bool isDone = false;     ///< the request is fulfilled
+  bool isAborted = false;  ///< at kEnd: the record was signed off before the end
 };
 
 /// The overlay of a step, for pictures of the size `output`: looks and ghosts of its parts, arrows,

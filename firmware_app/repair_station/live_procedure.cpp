@@ -81,7 +81,7 @@ bool LiveProcedure::press(const hal::KeyPressed& key) {
   if (key.name == "pageup") {
     goBack();
   } else if (key.name == "x" && key.shift) {
-    signOff();
+    if (!key.isRepeat) pressAbort();
   } else if (stepper().isFinished()) {
     if (key.name != "return") return false;
     signOff();
@@ -89,6 +89,15 @@ bool LiveProcedure::press(const hal::KeyPressed& key) {
     return pressForStep(key);
   }
   return true;
+}
+
+/// A record that is signed off cannot be gone on with, so one slip of a finger must not do it.
+void LiveProcedure::pressAbort() {
+  const hal::TimePoint now = clock_.now();
+  const bool wasAsked = asked_ && now - *asked_ <= kAbortAgain;
+  if (stepper().isFinished() || !isRecorded() || wasAsked) return signOff();
+  asked_ = now;
+  note(notices().abortAgain);
 }
 
 bool LiveProcedure::pressForStep(const hal::KeyPressed& key) {
@@ -368,7 +377,8 @@ StepShown LiveProcedure::shown() const {
                   .partsOff = stepper().partsOff(),
                   .language = options_.language};
   if (isSignedOff()) {
-    shown.step = procedure::kEnd;  // it may be aborted: nothing points at the machine any more
+    shown.isAborted = !stepper().isFinished();
+    shown.step = procedure::kEnd;  // nothing points at the machine any more
   } else if (stepper().isFinished()) {
     shown.request = requestAtEnd(options_.language, isRecorded());
   } else {

@@ -52,6 +52,8 @@ class LiveProcedure {
  public:
   static constexpr hal::Duration kOneAtATime = std::chrono::milliseconds(400);
   /// A contact that bounces presses twice.
+  /// Within this of the first press, a second one signs off before the end.
+  static constexpr hal::Duration kAbortAgain = std::chrono::seconds(5);
   static constexpr hal::Duration kBounce = std::chrono::milliseconds(50);
   /// How long a pose says where the machine is, where no frame comes.
   static constexpr hal::Duration kPoseLasts = std::chrono::milliseconds(500);
@@ -140,6 +142,7 @@ class LiveProcedure {
   void goBack();
   void changeOperator(const std::string& name);
   void signOff();
+  void pressAbort();
   void readAgain();
   void note(std::string_view text) { put(notices_, text); }
   void fail(std::string_view text) { put(failures_, text); }
@@ -166,6 +169,7 @@ class LiveProcedure {
   std::string source_;                   // of the input that is handled
   std::string moveSource_;               // of the last answer or step back
   std::optional<hal::TimePoint> moved_;  // when it was
+  std::optional<hal::TimePoint> asked_;  // when a key asked to sign off before the end
   hal::TimePoint polled_;
   std::filesystem::file_time_type read_;
   mutable std::mutex mutex_;

@@ -119,7 +119,8 @@ void LiveProcedure::signOff() {
       moves_ = false;
       if (!signedOff) return noteFailure(signedOff.error(), Unwritten::kOther);
       stills_.clear();
-      note(procedure::filled(notices().signedOff, view().finalHash));
+      const bool isWhole = stepper().isFinished();
+      note(procedure::filled(isWhole ? notices().signedOff : notices().aborted, view().finalHash));
     };
   });
 }

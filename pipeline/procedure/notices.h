@@ -13,8 +13,8 @@ namespace pleinair::procedure {
 struct Notices {
   std::string_view language;  ///< "de"
   // Of the record.
-  std::string_view resumed, signedOff, isSignedOff, readAgain, isWriting, diskFull, pictureNotSaved,
-      wasEdited, notRecorded;
+  std::string_view resumed, signedOff, aborted, abortAgain, isSignedOff, readAgain, isWriting,
+      diskFull, pictureNotSaved, wasEdited, notRecorded;
   // Of operators.
   std::string_view noOperator, worksAlready, nowWorks;
   // Of answers.

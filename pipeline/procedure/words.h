@@ -11,7 +11,7 @@ namespace pleinair::procedure {
 /// Words of the program that stand beside a procedure's own texts.
 struct Words {
   std::string_view language;  ///< "de"
-  std::string_view step, tools, torque, check, end, theEnd, photo, comparison;
+  std::string_view step, tools, torque, check, end, theEnd, aborted, photo, comparison;
   std::string_view yes, no, ok, low, high, pass, fail, uncertain, done;
   std::string_view danger, warning, caution, notice;
   // What is asked for, with the keys.

@@ -342,7 +342,7 @@ TEST_F(RepairStation, AProcedureIsCarriedOutSignedOffCheckedAndExported) {
   const ProgramRun checked = runProgram(
       {"record-check", record, "--report", path("records/work.html"), "--procedure", path("work")});
   EXPECT_EQ(checked.status, 0) << checked.error;
-  EXPECT_THAT(checked.out, HasSubstr("unchanged and signed off"));
+  EXPECT_THAT(checked.out, HasSubstr("unchanged and signed off as completed"));
   EXPECT_THAT(textOf(path("records/work.html")),
               testing::AllOf(HasSubstr("1. Open it"), HasSubstr("0.15"), HasSubstr("Jo")));
   const ProgramRun exported = runProgram(

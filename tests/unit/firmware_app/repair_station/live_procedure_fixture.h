@@ -65,6 +65,10 @@ class LiveProcedureTest : public testing::Test {
   }
 
   /// Presses keys with spaces between them.
+  /// Signs off before the end.
+  static void pressAbort(LiveProcedure& procedure) {
+    for (int i = 0; i < 2; ++i) EXPECT_TRUE(procedure.press({.name = "x", .shift = true}));
+  }
   static void press(LiveProcedure& procedure, const std::string& keys) {
     std::size_t at = 0;
     while (at < keys.size()) {

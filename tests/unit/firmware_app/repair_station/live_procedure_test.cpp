@@ -79,7 +79,7 @@ TEST_F(LiveProcedureTest, GoesOnWithTheRecordThatIsNotSignedOff) {
     LiveProcedure live = begin();
     EXPECT_EQ(live.status().record, record);
     EXPECT_EQ(live.status().step, "gap");
-    EXPECT_TRUE(live.press({.name = "x", .shift = true}));
+    pressAbort(live);
     live.finish();
   }
   LiveProcedure live = begin();
@@ -182,9 +182,29 @@ TEST_F(LiveProcedureTest, APoseOfAFrameThatIsLongPastIsNotRecorded) {
 TEST_F(LiveProcedureTest, PointsAtNothingOnceItIsSignedOff) {
   LiveProcedure live = begin();
   EXPECT_EQ(live.shown().step, 0U);
-  EXPECT_TRUE(live.press({.name = "x", .shift = true}));
+  pressAbort(live);
   live.finish();
   EXPECT_EQ(live.shown().step, procedure::kEnd);
+  EXPECT_TRUE(live.shown().isAborted);
+}
+
+TEST_F(LiveProcedureTest, OnePressAbortsNothing) {
+  LiveProcedure live = begin();
+  const hal::KeyPressed abort{.name = "x", .shift = true};
+  EXPECT_TRUE(live.press(abort));
+  EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("once more within five seconds"));
+  EXPECT_TRUE(live.press({.name = "x", .shift = true, .isRepeat = true})) << "a key that is held";
+  clock_.advance(std::chrono::seconds(6));
+  EXPECT_TRUE(live.press(abort));
+  live.finish();
+  EXPECT_FALSE(live.status().isSignedOff) << "too late";
+  clock_.advance(std::chrono::seconds(4));
+  EXPECT_TRUE(live.press(abort));
+  live.finish();
+  EXPECT_TRUE(live.status().isSignedOff);
+  std::string last;
+  while (const auto notice = live.takeNotice()) last = *notice;
+  EXPECT_THAT(last, HasSubstr("aborted; final hash "));
 }
 
 TEST_F(LiveProcedureTest, ADiskThatIsFullAtAStillKeepsTheStepUntilThereIsSpace) {
@@ -223,7 +243,7 @@ TEST_F(LiveProcedureTest, OperatorsWhoTakeOverAreInTheRecord) {
       live.obey({.kind = procedure::StepCommandKind::kOperator, .operatorName = "Li"}, "a card"));
   live.finish();
   press(live, "y");
-  EXPECT_TRUE(live.press({.name = "x", .shift = true}));
+  pressAbort(live);
   live.finish();
   const auto reading = record::checkRecordFile(live.status().record);
   std::vector<std::string> names;
@@ -277,9 +297,10 @@ TEST_F(LiveProcedureTest, NoticesAreInTheProceduresLanguage) {
   EXPECT_EQ(live.takeNotice(), "dieser Schritt stellt eine Frage: y (ja) oder n (nein)");
   press(live, "n");
   EXPECT_EQ(live.takeNotice(), "nein: diesen Schritt noch einmal");
-  EXPECT_TRUE(live.press({.name = "x", .shift = true}));
+  pressAbort(live);
   live.finish();
-  EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("abgezeichnet; letzte Prüfsumme "));
+  EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("noch einmal"));
+  EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("abgebrochen; letzte Prüfsumme "));
 }
 
 TEST_F(LiveProcedureTest, SaysWhatIsWrongAtTheStart) {

@@ -90,7 +90,7 @@ TEST_F(LiveProcedureTest, OperatorsWhoComeTogetherAreAllInTheRecord) {
   EXPECT_EQ(live.takeNotice(), "now works: Kim");
   EXPECT_EQ(live.takeNotice(), "now works: Jo");
   EXPECT_EQ(live.takeNotice(), "Jo works already");
-  EXPECT_TRUE(live.press({.name = "x", .shift = true}));
+  pressAbort(live);
   live.finish();
   const auto reading = record::checkRecordFile(live.status().record);
   EXPECT_EQ(std::get<record::SignedOff>(reading->entries.back().event).operatorName, "Jo");
@@ -121,7 +121,7 @@ TEST_F(LiveProcedureTest, WhatIsNotRecordedIsSaidAsWhatItIsAndStaysSaid) {
               StartsWith("the disk is full: the step is not done"));
   EXPECT_FALSE(live.takeFailure());
   EXPECT_THAT(live.takeNotice().value_or(""), HasSubstr("being written")) << "it hides no failure";
-  EXPECT_TRUE(live.press({.name = "x", .shift = true}));
+  pressAbort(live);
   live.finish();
   EXPECT_THAT(live.takeFailure().value_or(""), StartsWith("not recorded: "));
   isFull = false;
