@@ -72,6 +72,11 @@ std::optional<Error> problemOf(const SyntheticOptions& options) {
   return std::nullopt;
 }
 
+bool hasFigures(SyntheticShot shot) {
+  return shot == SyntheticShot::kVisitors || shot == SyntheticShot::kCrossing ||
+         shot == SyntheticShot::kPortrait;
+}
+
 }  // namespace
 
 SyntheticCamera::SyntheticCamera(SyntheticOptions options, Clock& clock)
@@ -100,8 +105,7 @@ Result<StreamFormat> SyntheticCamera::start(const StreamRequest&) {
   if (!renderer_) {
     synthetic::WorldOptions world{.seed = options_.seed,
                                   .texelMetres = texelMetresFor(size),
-                                  .hasFigures = options_.shot == SyntheticShot::kVisitors ||
-                                                options_.shot == SyntheticShot::kCrossing};
+                                  .hasFigures = hasFigures(options_.shot)};
     renderer_.emplace(synthetic::sharedWorkbench(world));
     if (options_.shot == SyntheticShot::kLights) {
       world.hasSpotlight = true;

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "hal/cameras/synthetic/render/portrait.h"
 #include "hal/cameras/synthetic/render/visitors.h"
 #include "hal/cameras/synthetic/world/noise.h"
 
@@ -135,6 +136,8 @@ glm::dmat4 Motion::cameraFromWorld(double seconds) const {
     case SyntheticShot::kVisitors:
     case SyntheticShot::kCrossing:
       return lookAt(kVisitorsEye, kVisitorsTarget);
+    case SyntheticShot::kPortrait:
+      return lookAt(kPortraitEye, kPortraitTarget);
     case SyntheticShot::kOccluder:
       return heldAt(kHomeEye, kHomeTarget, seconds);
     case SyntheticShot::kCut:
@@ -179,6 +182,7 @@ BodyPoses Motion::bodies(double seconds) const {
   if (shot_ == SyntheticShot::kHand) bodies.place(kArm, worldFromSlowArm(seconds));
   if (shot_ == SyntheticShot::kVisitors) placeVisitors(seconds, bodies);
   if (shot_ == SyntheticShot::kCrossing) placeCrossing(seconds, bodies);
+  if (shot_ == SyntheticShot::kPortrait) placePortrait(seconds, bodies);
   return bodies;
 }
 

@@ -38,7 +38,7 @@ class Motion {
   /// Maps world coordinates to OpenCV's camera frame (x right, y down, z forward); rigid.
   glm::dmat4 cameraFromWorld(double seconds) const;
   /// Where the bodies of the shot are: the room, and the arm of kOccluder and kHand or the figures
-  /// of kVisitors and kCrossing.
+  /// of kVisitors, kCrossing and kPortrait.
   BodyPoses bodies(double seconds) const;
 
  private:

@@ -7,9 +7,9 @@
 namespace pleinair::hal {
 namespace {
 
-constexpr std::array<std::string_view, 11> kNames{"walkaround", "pan",      "dolly",   "roll",
-                                                  "still",      "occluder", "cut",     "visitors",
-                                                  "lights",     "hand",     "crossing"};
+constexpr std::array<std::string_view, 12> kNames{"walkaround", "pan",      "dolly",    "roll",
+                                                  "still",      "occluder", "cut",      "visitors",
+                                                  "lights",     "hand",     "crossing", "portrait"};
 
 }  // namespace
 

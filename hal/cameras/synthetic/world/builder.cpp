@@ -18,10 +18,6 @@ namespace {
 /// textures.
 constexpr double kTurnedAway = 0.7;
 
-glm::dvec3 moved(const glm::dmat4& pose, glm::dvec3 point) {
-  return glm::dvec3(pose * glm::dvec4(point, 1));
-}
-
 std::vector<glm::dvec2> ringOutline(double radius, int sides) {
   std::vector<glm::dvec2> ring;
   for (int i = 0; i < sides; ++i) {

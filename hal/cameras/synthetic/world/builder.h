@@ -128,5 +128,9 @@ class Builder {
 
 /// The pose at `position`, turned anticlockwise about z as seen from above.
 glm::dmat4 uprightPose(glm::dvec3 position, double degrees = 0);
+/// Where a pose takes a point.
+inline glm::dvec3 moved(const glm::dmat4& pose, glm::dvec3 point) {
+  return glm::dvec3(pose * glm::dvec4(point, 1));
+}
 
 }  // namespace pleinair::hal::synthetic

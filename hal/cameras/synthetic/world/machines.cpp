@@ -12,10 +12,6 @@
 namespace pleinair::hal::synthetic {
 namespace {
 
-glm::dvec3 moved(const glm::dmat4& pose, glm::dvec3 point) {
-  return glm::dvec3(pose * glm::dvec4(point, 1));
-}
-
 /// A pose relative to another, turned by `degrees` about its z.
 glm::dmat4 within(const glm::dmat4& pose, glm::dvec3 position, double degrees = 0) {
   return pose * uprightPose(position, degrees);
