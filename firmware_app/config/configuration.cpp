@@ -71,6 +71,17 @@ std::optional<SiteFile> readSiteFile(const ConfigurationRequest& request) {
   return SiteFile{path, TomlDocument::parseFile(path)};
 }
 
+void refuseScene(const SiteFile& site) {
+  const config::TomlTable& root = site.document.root();
+  for (const char* table : {"tag", "model"}) {
+    if (!root.has(table)) continue;
+    throw ConfigError({.file = site.path.string(),
+                       .line = root.lineOf(table),
+                       .problem = "seems to be a scene, not a configuration",
+                       .allowed = "a site file; a scene is given as --scene FILE"});
+  }
+}
+
 void applyEnvironment(Sections& sections, std::vector<EnvironmentVariable> variables) {
   // In an order of ours, so that of several errors it is always the same one that is told.
   std::ranges::sort(variables, {}, &EnvironmentVariable::name);
@@ -293,7 +304,10 @@ std::vector<EnvironmentVariable> environmentOfProcess() {
 Configuration::Configuration(const ConfigurationRequest& request)
     : sections_(defaultSections()), given_(sections_) {
   const std::optional<SiteFile> site = readSiteFile(request);
-  if (site) files_.push_back(site->path);
+  if (site) {
+    refuseScene(*site);
+    files_.push_back(site->path);
+  }
   if (const auto profile = readProfile(sections_, request, site, files_)) {
     if (profile->root().has(kProfileKey)) {
       throw profile->root().error(kProfileKey, "a profile builds on no other", "[sections] only");
