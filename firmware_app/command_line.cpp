@@ -81,6 +81,32 @@ void logToStandardError() {
 
 namespace {
 
+/// How a recording or a camera is given to a command that was given it otherwise; empty where
+/// nothing better is known. `option` is empty for an argument without one.
+std::string misplacedText(const CLI::App& command, const std::string& option,
+                          const std::string& argument) {
+  const std::string& name = command.get_name();
+  const bool hasInput = command.get_option_no_throw("--input") != nullptr;
+  const bool hasCamera = command.get_option_no_throw("--camera") != nullptr;
+  if (option.empty() && hasInput) {
+    return fmt::format("{}: unexpected argument: give a recording as --input FILE", argument);
+  }
+  if ((option.empty() || option == "--input") && hasCamera && !hasInput) {
+    const std::string found = option.empty() ? argument + ": unexpected argument" : option;
+    return fmt::format(
+        "{}: `pleinair {}` takes a camera or a recording as --camera NAME|FILE; `pleinair render "
+        "FILE` paints every frame of a recording",
+        found, name);
+  }
+  if (option == "--camera" && hasInput) {
+    return fmt::format(
+        "--camera: `pleinair {}` takes a recording, as FILE; `pleinair run` paints a camera, "
+        "`pleinair record` records one",
+        name);
+  }
+  return {};
+}
+
 /// The error text for unknown arguments. It names the first unknown option, if any: the other
 /// arguments may be its value.
 std::string unknownText(const CLI::App& app, const std::vector<std::string>& unknown) {
@@ -92,12 +118,20 @@ std::string unknownText(const CLI::App& app, const std::vector<std::string>& unk
   std::vector<std::string> known;
   if (option != unknown.end()) {
     if (const auto now = renamedOption(name)) return fmt::format("{} is now {}", name, *now);
+    if (!commands.empty()) {
+      if (std::string text = misplacedText(*commands.front(), name, word); !text.empty()) {
+        return text;
+      }
+    }
     for (const CLI::Option* each : (commands.empty() ? app : *commands.front()).get_options()) {
       known.push_back(each->get_name());
     }
     return fmt::format("{}: {}", name, config::unknownText("option", name, known));
   }
-  if (!commands.empty()) return fmt::format("{}: unexpected argument", word);
+  if (!commands.empty()) {
+    const std::string text = misplacedText(*commands.front(), "", word);
+    return text.empty() ? fmt::format("{}: unexpected argument", word) : text;
+  }
   for (const CLI::App* each : app.get_subcommands({})) known.push_back(each->get_name());
   return fmt::format("{}: {}", word, config::unknownText("command", word, known));
 }
@@ -138,7 +172,7 @@ int withOutputFlushed(int status) {
 }
 
 /// The arguments in CLI11's order, last first. Splits "--name=": CLI11 would take the next argument
-/// for its value.
+/// for its value. "help render" becomes "render --help".
 std::vector<std::string> argumentsReversed(int argc, const char* const* argv) {
   std::vector<std::string> arguments;
   for (const char* each :
@@ -150,6 +184,10 @@ std::vector<std::string> argumentsReversed(int argc, const char* const* argv) {
     arguments.push_back(std::move(argument));
     if (hasEmptyValue) arguments.emplace_back();
   }
+  if (!arguments.empty() && arguments.front() == "help") {
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
+  }
   std::ranges::reverse(arguments);
   return arguments;
 }
@@ -158,6 +196,8 @@ int parseAndRun(int argc, const char* const* argv) {
   CLI::App app("pleinair paints live augmented-reality video with marks that stay put.",
                "pleinair");
   app.set_version_flag("--version", kVersion);
+  constexpr std::size_t kNamesWidth = 36;
+  app.get_formatter()->column_width(kNamesWidth);
   app.require_subcommand(0, 1);  // 0, because with 1 CLI11 would not report a wrong name
   SubcommandOptions options;
   std::function<int()> chosen;

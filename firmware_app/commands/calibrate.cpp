@@ -243,6 +243,11 @@ int calibrate(const CalibrateOptions& options) {
   const Configuration configuration(options.configuration);
   return configuration.attributing([&] {
     boardOf(options.board);  // reports errors before a camera is opened
+    if (!options.input && configuration.origin("camera.source") == config::kDefaultOrigin) {
+      // The default is the workbench, which shows no board, and never ends.
+      refuse(hal::ErrorKind::kInvalidArgument, "calibrate", "is given no camera",
+             "give one, such as --camera auto, or a recording as --input FILE");
+    }
     if (!options.input) refuseSlipOfCamera(configuration);
     refuseCollisionsOf(options, configuration);
     if (options.viewsFolder) requireEmptyFolder(*options.viewsFolder);

@@ -104,6 +104,7 @@ struct RenderOptions {
   bool keepsSound = true;
   std::string step;  ///< of [procedure]'s: id or number; empty: one after the other
   double secondsPerStep = 4.0;
+  std::string crf;  ///< as it was given, until the codec is known
   /// The options that are not configuration. "{name}" in its output, poses and contact sheet
   /// stands for the input's name.
   PaintingOptions painting;

@@ -11,6 +11,7 @@
 #include <spdlog/spdlog.h>
 
 #include "config/suggestion.h"
+#include "firmware_app/cli/counted_text.h"
 #include "firmware_app/cli/exit_status.h"
 #include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/scene/scene_check.h"
@@ -136,9 +137,11 @@ int checkProcedure(const ProcedureCheckOptions& options) {
     return static_cast<int>(ExitStatus::kUsage);
   }
   const AxisBox box = attachedBox(sceneOf(procedure).models.front());
-  std::string text = fmt::format("{} {}: {} steps in {}\n", procedure.name, procedure.version,
-                                 procedure.steps.size(), fmt::join(procedure.languages, ", "));
-  text += fmt::format("  model: {} parts, {}\n", procedure.model->parts.size(), sizeText(box));
+  std::string text = fmt::format("{} {}: {} in {}\n", procedure.name, procedure.version,
+                                 countedText(procedure.steps.size(), "step"),
+                                 fmt::join(procedure.languages, ", "));
+  text += fmt::format("  model: {}, {}\n", countedText(procedure.model->parts.size(), "part"),
+                      sizeText(box));
   text += fmt::format("  files: {}\n", fmt::join(procedure.files, ", "));
   text += fmt::format("  hash: {}\n", procedure.hash);
   for (const std::string& line : branchLines(procedure)) text += "  " + line + "\n";

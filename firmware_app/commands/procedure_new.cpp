@@ -14,6 +14,7 @@
 #include "config/config_error.h"
 #include "config/toml_reader.h"
 #include "config/toml_text.h"
+#include "firmware_app/cli/counted_text.h"
 #include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/commands/procedure.h"
 #include "hal/error.h"
@@ -142,15 +143,16 @@ int newProcedure(const ProcedureNewOptions& options) {
     writeFile(options.folder / (language + ".md"), text);
   }
   writeFile(options.folder / procedure::kProcedureFile, skeleton.toml);
-  writeText(stdout, fmt::format("wrote {} steps: {}\n", skeleton.steps,
+  writeText(stdout, fmt::format("wrote {}: {}\n", countedText(skeleton.steps, "step"),
                                 (options.folder / procedure::kProcedureFile).string()));
   writeText(stdout, fmt::format("what is likely wrong: pleinair procedure check {0}\n"
                                 "which node is which: pleinair procedure preview {0} --nodes "
                                 "--output nodes.png\n",
                                 options.folder.string()));
   if (!skeleton.leftOut.empty()) {
-    spdlog::warn("{} nodes have no step, from {} on: a procedure has at most {} steps",
-                 skeleton.leftOut.size(), skeleton.leftOut.front(), procedure::kMaxSteps);
+    spdlog::warn("{} without a step, from {} on: a procedure has at most {} steps",
+                 countedText(skeleton.leftOut.size(), "node"), skeleton.leftOut.front(),
+                 procedure::kMaxSteps);
   }
   return 0;
 }

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "firmware_app/cli/counted_text.h"
 #include "firmware_app/cli/exit_status.h"
 #include "firmware_app/cli/path_collisions.h"
 #include "firmware_app/cli/standard_streams.h"
@@ -94,7 +95,8 @@ int exportRecord(const RecordExportOptions& options) {
   const auto procedure = procedureOfRecord(options.procedure, reading);
   RecordExport archive(options, reading);
   archive.write(procedure ? &*procedure : nullptr);
-  writeText(stdout, fmt::format("{}: {} files\n", options.output.string(), archive.files()));
+  writeText(stdout,
+            fmt::format("{}: {}\n", options.output.string(), countedText(archive.files(), "file")));
   printFindings(options.record, reading);
   return reading.findings.empty() ? 0 : static_cast<int>(ExitStatus::kInternal);
 }

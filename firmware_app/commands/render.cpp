@@ -111,10 +111,6 @@ void checkFormat(const PaintingOptions& painting) {
   if (movie.crf && movie.codec == hal::VideoCodec::kFfv1) {
     throw misuse("--crf", "is not of ffv1, which is lossless", "leave it out");
   }
-  constexpr double kMostCrf = 51;
-  if (movie.crf.value_or(0) > kMostCrf && movie.codec != hal::VideoCodec::kAv1) {
-    throw misuse("--crf", fmt::format("found {:g}", *movie.crf), "give 0 to 51; av1 goes to 63");
-  }
   if (painting.pictures.quality && !isJpeg) {
     throw misuse("--quality", "is of JPEG, and " + output + " is none",
                  "write .jpg; of movies it is --crf");
@@ -122,6 +118,14 @@ void checkFormat(const PaintingOptions& painting) {
   if (painting.pictures.dotsPerInch && !isPictures) {
     throw misuse("--dpi", "is of pictures, and " + output + " is none", "write .png, .jpg or .tif");
   }
+}
+
+void checkPart(const RenderOptions& options) {
+  if (!options.to || *options.to > options.from) return;
+  throw misuse("--to",
+               fmt::format("ends at {:g} s, and --from begins at {:g} s",
+                           hal::toSeconds(*options.to), hal::toSeconds(options.from)),
+               "give an end after the beginning");
 }
 
 /// Refuses outputs that would overwrite an input or one another.
@@ -205,6 +209,7 @@ int render(const RenderOptions& options) {
     const scene::Scene scene = configuredScene(configuration);
     const std::vector<RenderJob> jobs = jobsOf(options);
     for (const RenderJob& job : jobs) checkFormat(job.painting);
+    checkPart(options);
     refuseCollisionsOf(jobs, configuredFiles(configuration, scene));
     if (jobs.size() == 1) return renderOne(options, configuration, jobs.front(), scene);
     int status = 0;

@@ -1,15 +1,18 @@
 #include <algorithm>
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "config/config_error.h"
 #include "firmware_app/cli/interrupt.h"
+#include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/commands/commands.h"
 #include "firmware_app/config/configuration.h"
 #include "firmware_app/live/screens/last_painting.h"
@@ -119,6 +122,7 @@ int showRescue(const RescueOptions& options) {
                                   .detail = job.problem.empty() ? options.detail : job.problem};
   if (!options.file.empty()) {
     writePicture(options.file, text, lastPainting());
+    writeText(stdout, fmt::format("wrote {}\n", options.file.string()));
     return 0;
   }
   const std::unique_ptr<hal::VirtualTerminal> terminal = takeConsole();

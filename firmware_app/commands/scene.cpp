@@ -6,12 +6,14 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "firmware_app/cli/counted_text.h"
 #include "firmware_app/cli/exit_status.h"
 #include "firmware_app/cli/interrupt.h"
 #include "firmware_app/cli/path_collisions.h"
 #include "firmware_app/cli/progress.h"
 #include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/commands/commands.h"
+#include "firmware_app/config/configured_parts.h"
 #include "firmware_app/scene/scene_check.h"
 #include "firmware_app/scene/scene_observer.h"
 #include "firmware_app/scene/scene_warnings.h"
@@ -20,7 +22,6 @@
 #include "hal/pending_file.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/present/contact_sheet.h"
-#include "pipeline/scene/description/scene_file.h"
 
 namespace pleinair::app {
 namespace {
@@ -98,14 +99,14 @@ class SceneFilm {
 };
 
 void describeScene(const scene::Scene& scene, const SceneObserver* observer) {
-  std::string text = fmt::format("{} tags of {}, {} models\n", scene.tags.size(), scene.tagFamily,
-                                 scene.models.size());
+  std::string text = fmt::format("{} of {}, {}\n", countedText(scene.tags.size(), "tag"),
+                                 scene.tagFamily, countedText(scene.models.size(), "model"));
   for (const tracking::TagMarker& tag : scene.tags) {
     text += fmt::format("  tag {}: {:g} m{}", tag.id, tag.edgeMetres,
                         tag.worldFromTag ? ", has a place in the world" : "");
     if (observer != nullptr) {
-      text +=
-          fmt::format("; seen in {} of {} frames", observer->sightings(tag.id), observer->frames());
+      text += fmt::format("; seen in {} of {}", observer->sightings(tag.id),
+                          countedText(observer->frames(), "frame"));
     }
     text += "\n";
   }
@@ -117,7 +118,7 @@ void describeScene(const scene::Scene& scene, const SceneObserver* observer) {
 
 int checkScene(const SceneCheckOptions& options) {
   const Interrupt interrupt;
-  const scene::Scene scene = scene::loadScene(options.scene);
+  const scene::Scene scene = sceneOfFile(options.scene);
   std::vector<NamedPath> read{{"FILE", options.scene}};
   for (const auto& file : scene.files) read.push_back({"a file of the scene", file});
   if (options.input) read.push_back({"--input", *options.input});

@@ -7,9 +7,9 @@
 #include "firmware_app/cli/path_collisions.h"
 #include "firmware_app/cli/standard_streams.h"
 #include "firmware_app/commands/commands.h"
+#include "firmware_app/config/configured_parts.h"
 #include "firmware_app/sheets/tag_sheets.h"
 #include "hal/pending_file.h"
-#include "pipeline/scene/description/scene_file.h"
 
 namespace pleinair::app {
 namespace {
@@ -23,7 +23,7 @@ std::vector<PrintedTag> tagsOf(const TagsOptions& options) {
     for (const int id : options.ids) tags.push_back({options.family, id, options.edgeMetres});
     return tags;
   }
-  const scene::Scene scene = scene::loadScene(*options.scene);
+  const scene::Scene scene = sceneOfFile(*options.scene);
   for (const tracking::TagMarker& tag : scene.tags) {
     tags.push_back({scene.tagFamily, tag.id, tag.edgeMetres});
   }

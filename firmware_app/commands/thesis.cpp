@@ -28,20 +28,32 @@ constexpr int kControlsWrong = 2;
 constexpr const char* kPage = "thesis.html";
 constexpr const char* kNumbers = "thesis.json";
 
+/// By the name of its files, or by one of its numbers: "15" of "15_16_21".
+bool isFigure(const ThesisFigureKind& kind, const std::string& name) {
+  return name == kind.name || std::ranges::any_of(kind.numbers, [&](int number) {
+           return name == std::to_string(number);
+         });
+}
+
 std::vector<ThesisFigureKind> chosenFigures(const std::vector<std::string>& only) {
   std::vector<ThesisFigureKind> chosen;
   std::vector<std::string> names;
   for (const ThesisFigureKind& kind : thesisFigures()) names.emplace_back(kind.name);
   for (const std::string& name : only) {
-    if (std::ranges::find(names, name) == names.end()) {
-      throw hal::Failure({.kind = hal::ErrorKind::kInvalidArgument,
-                          .subject = "--only",
-                          .problem = fmt::format("there is no figure \"{}\"", name),
-                          .remedy = "give " + config::listText(names)});
+    const bool isKnown = std::ranges::any_of(
+        thesisFigures(), [&](const ThesisFigureKind& kind) { return isFigure(kind, name); });
+    if (!isKnown) {
+      throw hal::Failure(
+          {.kind = hal::ErrorKind::kInvalidArgument,
+           .subject = "--only",
+           .problem = fmt::format("there is no figure \"{}\"", name),
+           .remedy = "give " + config::listText(names) + ", or one of these numbers"});
     }
   }
   for (const ThesisFigureKind& kind : thesisFigures()) {
-    if (only.empty() || std::ranges::find(only, kind.name) != only.end()) chosen.push_back(kind);
+    const bool isChosen =
+        std::ranges::any_of(only, [&](const std::string& name) { return isFigure(kind, name); });
+    if (only.empty() || isChosen) chosen.push_back(kind);
   }
   return chosen;
 }

@@ -14,6 +14,7 @@
 #include "firmware_app/config/configuration_sections.h"
 #include "firmware_app/config/look_file.h"
 #include "firmware_app/config/renamed.h"
+#include "firmware_app/config/style_names.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/styles/registry.h"
 
@@ -68,6 +69,17 @@ std::optional<SiteFile> readSiteFile(const ConfigurationRequest& request) {
   const fs::path& path = request.defaultSiteFile;
   if (fs::status(path, failure).type() == fs::file_type::not_found) return std::nullopt;
   return SiteFile{path, TomlDocument::parseFile(path)};
+}
+
+void refuseScene(const SiteFile& site) {
+  const config::TomlTable& root = site.document.root();
+  for (const char* table : {"tag", "model"}) {
+    if (!root.has(table)) continue;
+    throw ConfigError({.file = site.path.string(),
+                       .line = root.lineOf(table),
+                       .problem = "seems to be a scene, not a configuration",
+                       .allowed = "a site file; a scene is given as --scene FILE"});
+  }
 }
 
 void applyEnvironment(Sections& sections, std::vector<EnvironmentVariable> variables) {
@@ -136,10 +148,20 @@ void chooseStyleOfLook(Sections& sections, const Sections& before) {
   sections.apply(kStyleKey, style, place);
 }
 
+/// A look is easily taken for a style: "oil".
+void refuseUnknownStyle(const OptionValue& option) {
+  const std::vector<std::string> names = styleNames();
+  if (std::ranges::find(names, option.text) != names.end()) return;
+  throw ConfigError({.file = option.option,
+                     .found = foundStyle(option.text),
+                     .allowed = "one of " + config::listText(names)});
+}
+
 void applyCommandLine(Sections& sections, const ConfigurationRequest& request) {
   const Sections before = sections;
   if (request.profile) sections.apply(kProfileKey, *request.profile, "--profile");
   for (const OptionValue& each : request.options) {
+    if (each.key == kStyleKey) refuseUnknownStyle(each);
     sections.apply(each.key, each.text, each.option);
   }
   // Those that name their section may change the style, which the others are of; so may a look.
@@ -177,15 +199,17 @@ std::optional<TomlDocument> readProfile(Sections sections, const ConfigurationRe
   }
 }
 
+/// `found` tells of a name that is not among `names`: foundLook() or foundView().
 void checkName(const Sections& sections, std::string_view key, const std::string& name,
-               std::string_view what, const std::vector<std::string>& names) {
+               std::string_view what, const std::vector<std::string>& names,
+               std::string (*found)(const std::string&, std::string_view)) {
   if (std::ranges::find(names, name) != names.end()) return;
   if (const auto now = renamedValue(key, name)) {
     throw sections.errorAt(key, fmt::format("{} is now \"{}\"", config::quoted(name), *now), {});
   }
-  throw sections.errorAt(
-      key, "found " + config::foundText(name, names),
-      fmt::format("{} of {}: {}", what, paintingOf(sections).style, config::listText(names)));
+  const std::string style = paintingOf(sections).style;
+  throw sections.errorAt(key, "found " + found(name, style),
+                         fmt::format("{} of {}: {}", what, style, config::listText(names)));
 }
 
 /// The look and the view are the style's: those of another style are forgotten where a stronger
@@ -203,11 +227,11 @@ void validateStyle(Sections& sections, const Sections& before) {
     looks.emplace_back(look.name);
   }
   if (!isLookFile(settled.look)) {
-    checkName(sections, kLookKey, settled.look.filename().string(), "the looks", looks);
+    checkName(sections, kLookKey, settled.look.filename().string(), "the looks", looks, foundLook);
   }
   std::vector<std::string> views{std::string(kFinishedView)};
   for (const DebugView& view : debugViewsOf(settled.style)) views.push_back(view.name);
-  checkName(sections, kViewKey, settled.view, "the views", views);
+  checkName(sections, kViewKey, settled.view, "the views", views, foundView);
 }
 
 /// Whether a value is this path, or a list that has it.
@@ -280,7 +304,10 @@ std::vector<EnvironmentVariable> environmentOfProcess() {
 Configuration::Configuration(const ConfigurationRequest& request)
     : sections_(defaultSections()), given_(sections_) {
   const std::optional<SiteFile> site = readSiteFile(request);
-  if (site) files_.push_back(site->path);
+  if (site) {
+    refuseScene(*site);
+    files_.push_back(site->path);
+  }
   if (const auto profile = readProfile(sections_, request, site, files_)) {
     if (profile->root().has(kProfileKey)) {
       throw profile->root().error(kProfileKey, "a profile builds on no other", "[sections] only");

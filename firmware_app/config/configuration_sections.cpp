@@ -11,6 +11,7 @@
 #include "config/profiles.h"
 #include "firmware_app/config/control_text.h"
 #include "firmware_app/config/renamed.h"
+#include "firmware_app/config/style_names.h"
 #include "firmware_app/status_server/listen_address.h"
 #include "hal/cameras/registry.h"
 #include "hal/keyboards/keyboards.h"
@@ -90,12 +91,6 @@ const ParameterTable<CameraSettings>& cameraTable() {
       controlParameter("white_balance", &CameraSettings::whiteBalance, kWhiteBalanceText,
                        "Of a device, the light's colour temperature; \"device\": as it is set.")};
   return kTable;
-}
-
-std::vector<std::string> styleNames() {
-  std::vector<std::string> names;
-  for (const styles::StyleKind* kind : styles::styleKinds()) names.emplace_back(kind->name);
-  return names;
 }
 
 std::vector<std::string> lookNames() {

@@ -1,6 +1,7 @@
 #include "firmware_app/config/configured_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 
 #include "config/config_error.h"
 #include "config/suggestion.h"
+#include "config/toml_reader.h"
 #include "firmware_app/config/configuration_sections.h"
 #include "firmware_app/config/control_text.h"
 #include "firmware_app/status_server/listen_address.h"
@@ -84,6 +86,18 @@ bool isSlipOfOpenName(const std::string& name) {
   return config::nearest(name.substr(0, colon), words).has_value();
 }
 
+/// Whether a file has a table of a site or look file that no scene has.
+bool seemsConfiguration(const std::filesystem::path& file) {
+  try {
+    const config::TomlDocument document = config::TomlDocument::parseFile(file);
+    constexpr std::array kTables{"painting", "output", "runtime", "style"};
+    return std::ranges::any_of(kTables,
+                               [&](const char* table) { return document.root().isTable(table); });
+  } catch (const config::ConfigError&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 PaintingOptions configuredPainting(const Configuration& configuration, PaintingOptions options) {
@@ -98,9 +112,21 @@ PaintingOptions configuredPainting(const Configuration& configuration, PaintingO
   return options;
 }
 
+scene::Scene sceneOfFile(const std::filesystem::path& file) {
+  try {
+    return scene::loadScene(file);
+  } catch (const config::ConfigError&) {
+    if (!seemsConfiguration(file)) throw;
+    throw config::ConfigError({.file = file.string(),
+                               .problem = "seems to be a configuration, not a scene",
+                               .allowed = "a file of tags and models; a configuration is given as "
+                                          "--config FILE"});
+  }
+}
+
 scene::Scene configuredScene(const Configuration& configuration) {
   const std::filesystem::path file = configuration.painting().scene;
-  return file == kNoFile ? scene::Scene{} : scene::loadScene(file);
+  return file == kNoFile ? scene::Scene{} : sceneOfFile(file);
 }
 
 CameraSettings configuredCamera(const Configuration& configuration) {

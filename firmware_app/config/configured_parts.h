@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -21,6 +22,10 @@ namespace pleinair::app {
 
 /// `options` with what [painting] and the style's table say.
 PaintingOptions configuredPainting(const Configuration& configuration, PaintingOptions options);
+
+/// The scene of a file. Throws as scene::loadScene() does, and says so where the file seems to be a
+/// configuration.
+scene::Scene sceneOfFile(const std::filesystem::path& file);
 
 /// [painting]'s scene; without one, an empty scene. Throws config::ConfigError.
 scene::Scene configuredScene(const Configuration& configuration);

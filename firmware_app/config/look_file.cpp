@@ -8,18 +8,13 @@
 #include <fmt/format.h>
 
 #include "config/toml_reader.h"
+#include "firmware_app/config/style_names.h"
 #include "pipeline/styles/registry.h"
 
 namespace pleinair::app {
 namespace {
 
 using config::TomlTable;
-
-std::vector<std::string> namesOfStyles() {
-  std::vector<std::string> names;
-  for (const styles::StyleKind* kind : styles::styleKinds()) names.emplace_back(kind->name);
-  return names;
-}
 
 config::ParameterValues baseOf(const styles::StyleKind& kind, const TomlTable& painting) {
   if (!painting.has("look")) return kind.defaults;
@@ -41,7 +36,7 @@ LookFile readLookFile(const std::filesystem::path& file) {
   const config::TomlDocument document = config::TomlDocument::parseFile(file);
   const TomlTable& root = document.root();
   const TomlTable painting = root.table("painting");
-  const std::vector<std::string> names = namesOfStyles();
+  const std::vector<std::string> names = styleNames();
   std::string style = names[painting.choice("style", names)];
   const styles::StyleKind& kind = styles::styleKind(style);
   config::ParameterValues values = baseOf(kind, painting);

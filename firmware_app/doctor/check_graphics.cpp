@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cerrno>
+#include <filesystem>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -22,9 +25,13 @@ Finding checkGraphics(const Probes& probes) {
   if (context->isSoftware) {
     finding.verdict = Verdict::kWarning;
     finding.text += ": software, some 15 to 25 frames a second at 640x480";
-    finding.remedy =
-        "sudo apt install libgl1-mesa-dri, or the GPU's own driver; "
-        "or paint smaller: --size 320x240";
+    // Mesa is there: it paints.
+    const std::vector<std::filesystem::path> nodes = probes.list("/dev/dri");
+    const bool hasGpu = std::ranges::any_of(nodes, [](const std::filesystem::path& node) {
+      return node.filename().string().starts_with("renderD");
+    });
+    finding.remedy = hasGpu ? "install the GPU's own driver, or paint smaller: --size 320x240"
+                            : "paint smaller: --size 320x240";
   }
   return finding;
 }

@@ -99,7 +99,10 @@ class Painting {
     }
     for (const std::string& notice : job.scene.notices) spdlog::warn("{}", notice);
     warn(assumedCameraWarning(job.scene, stream_.frame.size));
-    warn(blackViewWarning(job.scene, job.options.view));
+    warn(blackViewWarning(job.scene, job.options.view, isOneFrame()));
+    if (const auto notice = evenSizeNotice(job.options.output, pictureSize())) {
+      spdlog::info("{}", *notice);
+    }
   }
 
   /// Paints until the end, a signal, or the loss of the camera; then completes the outputs with the
@@ -132,6 +135,8 @@ class Painting {
   std::uint64_t frames() const { return frames_; }
 
  private:
+  bool isOneFrame() const { return framesToPaint(stream_, job_) == 1; }
+
   hal::FrameSize pictureSize() const { return job_.options.size.value_or(stream_.frame.size); }
 
   /// Gives the signal that interrupted it, or 0.
@@ -249,6 +254,18 @@ void reportInterruption(int signal, std::uint64_t frames, const PaintingJob& job
 }
 
 }  // namespace
+
+std::optional<std::string> evenSizeNotice(const std::filesystem::path& output,
+                                          hal::FrameSize size) {
+  const bool isEven = size.width % 2 == 0 && size.height % 2 == 0;
+  const std::string ending = output.extension().string();
+  const bool isY4m = ending == ".y4m" || ending == ".Y4M";
+  if (isEven || isY4m || isFrameSeries(output) || !hal::isMovieName(output)) return std::nullopt;
+  return fmt::format(
+      "{}: movies have even sides: {}x{} becomes {}x{}, with the last column or row twice",
+      output.string(), size.width, size.height, size.width + size.width % 2,
+      size.height + size.height % 2);
+}
 
 PaintParameters startParameters(const PaintingOptions& options) {
   hal::orThrow(checkDebugView(options.style, options.view));

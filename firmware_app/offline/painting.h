@@ -42,6 +42,9 @@ struct PaintingOptions {
 /// with all names.
 PaintParameters startParameters(const PaintingOptions& options);
 
+/// Tells of a movie of an odd side, whose file is one px longer (openMovieOutput()).
+std::optional<std::string> evenSizeNotice(const std::filesystem::path& output, hal::FrameSize size);
+
 /// Passes every frame of a camera through a Painter to an output: the common part of `render` and
 /// `record`.
 struct PaintingJob {

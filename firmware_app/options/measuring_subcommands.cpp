@@ -180,7 +180,10 @@ void addThesis(CLI::App& app, ThesisOptions& options, std::function<int()>& chos
       ->check(refuseStandardOutput)
       ->type_name("DIR");
   command.add_flag("--quick", options.quick, "small and short films: a trial of the report");
-  command.add_option("--only", options.only, "only these figures, by the names of their files")
+  command
+      .add_option(
+          "--only", options.only,
+          "only these figures, by their numbers or the names of their files: 15 or 15_16_21")
       ->delimiter(',')
       ->type_name("NAME[,NAME]");
   refuseEmptyValues(command);

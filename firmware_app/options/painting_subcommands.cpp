@@ -2,6 +2,7 @@
 #include <array>
 #include <filesystem>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include <fmt/ranges.h>
 
 #include "config/parameter.h"
+#include "config/suggestion.h"
 #include "firmware_app/cli/option_values.h"
 #include "firmware_app/options/shared_options.h"
 #include "firmware_app/options/subcommands.h"
@@ -49,8 +51,36 @@ constexpr std::array<std::pair<std::string_view, hal::VideoCodec>, 4> kCodecs{
      {"av1", hal::VideoCodec::kAv1},
      {"ffv1", hal::VideoCodec::kFfv1}}};
 
+/// Throws CLI::ValidationError for an unknown name, with all names.
+hal::VideoCodec codecNamed(const std::string& text) {
+  // the names of standards and encoders
+  static const std::map<std::string_view, std::string_view> kOtherNames{
+      {"h265", "hevc"}, {"x265", "hevc"}, {"avc", "h264"}, {"x264", "h264"}};
+  std::vector<std::string> names;
+  for (const auto& [name, codec] : kCodecs) {
+    if (text == name) return codec;
+    names.emplace_back(name);
+  }
+  const auto other = kOtherNames.find(text);
+  const std::string found = other == kOtherNames.end()
+                                ? config::foundText(text, names)
+                                : fmt::format("\"{}\" (did you mean \"{}\"?)", text, other->second);
+  throw CLI::ValidationError("--codec",
+                             fmt::format("found {}, allowed: {}", found, config::listText(names)));
+}
+
+/// The range depends on the codec, which may be given after it.
+void readCrf(const std::string& text, hal::MovieOptions& movie) {
+  if (text.empty()) return;
+  constexpr double kMostCrf = 51;
+  constexpr double kMostCrfOfAv1 = 63;
+  const bool isAv1 = movie.codec == hal::VideoCodec::kAv1;
+  movie.crf = numberOf("--crf", text, "", 0, isAv1 ? kMostCrfOfAv1 : kMostCrf);
+}
+
 /// How movies and pictures are coded. Which of the options the output takes, render() checks.
-void addFileFormat(CLI::App& command, PaintingOptions& painting) {
+/// `crf` is read by readCrf() once all options are known.
+void addFileFormat(CLI::App& command, PaintingOptions& painting, std::string& crf) {
   const auto addNumber = [&command](const std::string& name, const std::string& help, double least,
                                     double most, std::optional<double>& number) {
     command
@@ -62,26 +92,19 @@ void addFileFormat(CLI::App& command, PaintingOptions& painting) {
             help)
         ->type_name("N");
   };
-  std::vector<std::string> names;
-  for (const auto& [name, codec] : kCodecs) names.emplace_back(name);
   command
       .add_option_function<std::string>(
           "--codec",
-          [&painting](const std::string& text) {
-            painting.movie.codec =
-                std::ranges::find(kCodecs, text,
-                                  &std::pair<std::string_view, hal::VideoCodec>::first)
-                    ->second;
-          },
+          [&painting](const std::string& text) { painting.movie.codec = codecNamed(text); },
           "of .mp4 and .mkv: h264 (default: plays everywhere), hevc and av1 (smaller, slower), "
-          "ffv1 "
-          "(lossless, .mkv)")
-      ->check(CLI::IsMember(names))
+          "ffv1 (lossless, .mkv)")
       ->type_name("NAME");
-  addNumber("--crf",
-            "quality of .mp4 and .mkv: 0 to 51 (av1: 63), less is better and larger (default: 18; "
-            "hevc 22, av1 26)",
-            0, 63, painting.movie.crf);
+  command
+      .add_option(
+          "--crf", crf,
+          "quality of .mp4 and .mkv: 0 to 51 (av1: 63), less is better and larger (default: "
+          "18; hevc 22, av1 26)")
+      ->type_name("N");
   addNumber("--quality", "of .jpg: 1 to 100, more is better and larger (default: 92)", 1, 100,
             painting.pictures.quality);
   addNumber("--dpi", "resolution that pictures are tagged with, for printing", 1, 10'000,
@@ -143,7 +166,9 @@ void addRender(CLI::App& app, RenderOptions& options, std::function<int()>& chos
       ->type_name("PATH");
   addPainting(command, options.configuration);
   addKey(command, options.configuration, "--size", "painting.size",
-         "size of the painting (default: the input's); movies need even sides", "WxH");
+         "size of the painting (default: the input's); movies need even sides: an odd one becomes "
+         "one px longer",
+         "WxH");
   addKey(command, options.configuration, "--procedure", "procedure.folder",
          "draw the steps of a work instruction over its machine, which --scene places", "FOLDER");
   command
@@ -166,7 +191,7 @@ void addRender(CLI::App& app, RenderOptions& options, std::function<int()>& chos
       "--no-sound", [&options] { options.keepsSound = false; },
       "leave the sound of a movie out; it is kept as it is coded where the output can hold it, "
       "else as AAC");
-  addFileFormat(command, options.painting);
+  addFileFormat(command, options.painting, options.crf);
   command
       .add_option("--poses", options.painting.poses,
                   "write the tracking results, one JSON object per frame")
@@ -182,7 +207,10 @@ void addRender(CLI::App& app, RenderOptions& options, std::function<int()>& chos
                   "a copy of the source tree whose shaders replace the built-in ones")
       ->type_name("DIR");
   refuseEmptyValues(command);
-  command.callback([&] { chosen = [&options] { return render(options); }; });
+  command.callback([&] {
+    readCrf(options.crf, options.painting.movie);
+    chosen = [&options] { return render(options); };
+  });
 }
 
 void addRun(CLI::App& app, RunOptions& options, std::function<int()>& chosen) {
@@ -273,8 +301,10 @@ void addRecord(CLI::App& app, RecordOptions& options, std::function<int()>& chos
   addFrames(
       command, [&options](std::uint64_t count) { options.frames = count; }, "record N frames")
       ->default_str(std::to_string(options.frames));
-  addKey(command, configuration, "--size", "camera.size",
-         "of the frames (default: 640x480); movies have even sides", "WxH");
+  addKey(
+      command, configuration, "--size", "camera.size",
+      "of the frames (default: 640x480); movies have even sides: an odd one becomes one px longer",
+      "WxH");
   addKey(command, configuration, "--seed", "camera.synthetic.seed",
          "of the synthetic camera's world and path (default: 1)", "N");
   command.add_flag("--lossless", options.lossless,

@@ -18,10 +18,12 @@ std::optional<std::string> assumedCameraWarning(const scene::Scene& scene, hal::
       glm::degrees(2.0 * std::atan(halfWidth)));
 }
 
-std::optional<std::string> unseenTagsWarning(const scene::Scene& scene, const std::set<int>& seen) {
+std::optional<std::string> unseenTagsWarning(const scene::Scene& scene, const std::set<int>& seen,
+                                             bool isOneFrame) {
   const bool anySeen = std::ranges::any_of(
       scene.tags, [&](const tracking::TagMarker& tag) { return seen.contains(tag.id); });
   std::set<int> unseen;
+  if (anySeen && isOneFrame) return std::nullopt;
   if (anySeen) {
     for (const scene::SceneModel& model : scene.models) {
       if (model.tagId && !seen.contains(*model.tagId)) unseen.insert(*model.tagId);
@@ -36,9 +38,16 @@ std::optional<std::string> unseenTagsWarning(const scene::Scene& scene, const st
                      seen.empty() ? "none" : fmt::format("{}", fmt::join(seen, ", ")));
 }
 
-std::optional<std::string> blackViewWarning(const scene::Scene& scene, std::string_view view) {
+std::optional<std::string> blackViewWarning(const scene::Scene& scene, std::string_view view,
+                                            bool isOneFrame) {
   if (scene::findBufferView(view) == nullptr) return std::nullopt;
-  if (!scene.models.empty() || !scene.planes.empty()) return std::nullopt;
+  if (!scene.models.empty() || !scene.planes.empty()) {
+    if (!isOneFrame || (view != "motion" && view != "motion_error")) return std::nullopt;
+    return fmt::format(
+        "the view {} shows what has moved since the frame before, and one frame is painted: it is "
+        "black; paint more, such as --from TIME --frames 2",
+        view);
+  }
   return fmt::format(
       "the view {} shows the scene's models and planes, and there are none: it is black; give "
       "--scene FILE",

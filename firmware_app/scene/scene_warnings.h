@@ -15,10 +15,14 @@ std::optional<std::string> assumedCameraWarning(const scene::Scene& scene, hal::
 
 /// Warns about the scene's tags with a model that no frame showed, or about all tags if none was
 /// seen: most likely their id or family is wrong. `seen` holds the ids of all detected tags.
-std::optional<std::string> unseenTagsWarning(const scene::Scene& scene, const std::set<int>& seen);
+/// In a single frame (`isOneFrame`), tags may well be out of sight: only that none was seen counts.
+std::optional<std::string> unseenTagsWarning(const scene::Scene& scene, const std::set<int>& seen,
+                                             bool isOneFrame = false);
 
 /// Warns that a debug view of the models (scene::bufferViews()) is black, for a scene without
-/// models and planes.
-std::optional<std::string> blackViewWarning(const scene::Scene& scene, std::string_view view);
+/// models and planes, or because it shows what has moved since the frame before and only one frame
+/// is painted.
+std::optional<std::string> blackViewWarning(const scene::Scene& scene, std::string_view view,
+                                            bool isOneFrame = false);
 
 }  // namespace pleinair::app

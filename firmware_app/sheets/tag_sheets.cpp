@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -30,7 +31,7 @@ PaperRect roomOn(const PaperSize& paper) {
 }
 
 hal::Failure tooLarge(const std::string& what, double widthMm, double heightMm,
-                      const PaperSize& paper) {
+                      const PaperSize& paper, const std::string& smaller = "make it smaller") {
   const PaperRect room = roomOn(paper);
   return hal::Failure(
       hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
@@ -38,7 +39,7 @@ hal::Failure tooLarge(const std::string& what, double widthMm, double heightMm,
                  .problem = fmt::format("needs {:.0f} x {:.0f} mm with its white border, and the "
                                         "paper has room for {:.0f} x {:.0f} mm",
                                         widthMm, heightMm, room.width, room.height),
-                 .remedy = "make it smaller, or give a larger --paper, such as a3"});
+                 .remedy = smaller + ", or a larger --paper, such as a3"});
 }
 
 /// The black cells of a tag whose first one, at the upper left, begins at (x, y).
@@ -177,6 +178,29 @@ BoardDrawing drawn(const calibration::AprilGrid& grid) {
   return drawing;
 }
 
+/// "give --square 0.023 or less": the largest whole millimetre that fits, either way round.
+std::string fittingBoardText(const calibration::Board& board, const BoardDrawing& drawing,
+                             const PaperSize& paper) {
+  constexpr double kRounding = 1e-9;
+  double scale = 0;
+  for (const PaperSize& turned : {paper, PaperSize{paper.heightMm, paper.widthMm}}) {
+    const PaperRect room = roomOn(turned);
+    const double across =
+        (room.width - 2 * kBoardBorderMm) / (drawing.widthMm - 2 * kBoardBorderMm);
+    const double down =
+        (room.height - kLabelMm - 2 * kBoardBorderMm) / (drawing.heightMm - 2 * kBoardBorderMm);
+    scale = std::max(scale, std::min(across, down));
+  }
+  const auto* grid = std::get_if<calibration::AprilGrid>(&board.kind());
+  const double side = grid != nullptr
+                          ? grid->tagEdgeMetres
+                          : std::get<calibration::Checkerboard>(board.kind()).squareMetres;
+  const double millimetres = std::floor(side * scale * kMmPerMetre + kRounding);
+  if (millimetres < 1) return "make it smaller";
+  return fmt::format("give {} {:g} or less", grid != nullptr ? "--tag-edge" : "--square",
+                     millimetres / kMmPerMetre);
+}
+
 }  // namespace
 
 std::optional<PaperSize> paperOf(const std::string& text) {
@@ -222,7 +246,8 @@ std::vector<std::uint8_t> boardSheet(const calibration::Board& board, PaperSize 
   if (!fits(paper)) {
     const PaperSize turned{paper.heightMm, paper.widthMm};
     if (!fits(turned)) {
-      throw tooLarge(board.text(), drawing.widthMm, drawing.heightMm + kLabelMm, paper);
+      throw tooLarge(board.text(), drawing.widthMm, drawing.heightMm + kLabelMm, paper,
+                     fittingBoardText(board, drawing, paper));
     }
     paper = turned;
   }

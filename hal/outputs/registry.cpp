@@ -28,6 +28,12 @@ Error invalid(const std::string& target, std::string problem, std::string remedy
           .remedy = std::move(remedy)};
 }
 
+/// The endings and numbered names that say what is written to a file.
+std::string fileEndingsText() {
+  return "end it in .mp4, .mkv, .y4m, " + writtenPictureEndings() +
+         " (numbered: out/%04d.png), or give a folder";
+}
+
 bool isDevicePlace(const std::string& target) {
   return target.starts_with("/dev/") && !target.starts_with("/dev/shm/");
 }
@@ -85,9 +91,7 @@ Result<const OutputKind*> outputKindOf(const std::string& target) {
         target, "is no output",
         "give " + kindsText() + "; a folder of this name is ./" + target + " or " + target + "/"));
   }
-  return tl::unexpected(invalid(target, "does not say what to write",
-                                "end it in .mp4, .mkv, .y4m, " + writtenPictureEndings() +
-                                    " (numbered: out/%04d.png), or give a folder"));
+  return tl::unexpected(invalid(target, "does not say what to write", fileEndingsText()));
 }
 
 Result<std::unique_ptr<Output>> openOutput(const std::string& target,
@@ -99,7 +103,12 @@ Result<std::unique_ptr<Output>> openOutput(const std::string& target,
 }
 
 Result<std::unique_ptr<MemoryOutput>> openFileOutput(const std::filesystem::path& path) {
-  const Result<const OutputKind*> kind = outputKindOf(path.string());
+  const std::string target = path.string();
+  const Result<const OutputKind*> kind = outputKindOf(target);
+  if (!kind && isBareWord(target) && !isDevicePlace(target)) {
+    return tl::unexpected(invalid(target, "does not say what to write",
+                                  fileEndingsText() + ": ./" + target + " or " + target + "/"));
+  }
   if (!kind) return tl::unexpected(kind.error());
   if (!(*kind)->traits.writesFiles) {
     return tl::unexpected(

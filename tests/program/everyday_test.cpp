@@ -207,10 +207,10 @@ TEST_F(Everyday, WritesTheFormatsThatItIsAskedFor) {
             "x.png", {"--quality", "80"}, "--quality: is of JPEG"},
         {"x.mp4", {"--dpi", "80"}, "--dpi: is of pictures"},
         {"x.jpg", {"--crf", "20"}, "--crf: is of movies"},
-        {"x.mp4", {"--crf", "60"}, "--crf: found 60; give 0 to 51"},
+        {"x.mp4", {"--crf", "60"}, "--crf: found \"60\", allowed: a number from 0 to 51"},
         {"x.y4m", {"--codec", "hevc"}, "--codec: is of movies"},
         {"x.mp4", {"--codec", "ffv1"}, "cannot hold FFV1"},
-        {"x.mp4", {"--codec", "divx"}, "--codec: divx not in"}}) {
+        {"x.mp4", {"--codec", "divx"}, "--codec: found \"divx\", allowed: h264"}}) {
     const ProgramRun run = render(output, options);
     EXPECT_EQ(run.status, 2) << problem;
     EXPECT_THAT(run.error, HasSubstr(problem));

@@ -155,7 +155,7 @@ TEST_F(RepairStation, ANewProcedureIsCheckedAndPreviewed) {
   const ProgramRun checked = runProgram({"procedure", "check", path("service"), "--nodes"});
   EXPECT_EQ(checked.status, 1);
   EXPECT_THAT(checked.error, HasSubstr("pl.md: nothing stands below the heading of box"));
-  EXPECT_THAT(checked.out, HasSubstr("1 steps in en, pl"));
+  EXPECT_THAT(checked.out, HasSubstr("1 step in en, pl"));
   const ProgramRun drawn = runProgram(
       {"procedure", "preview", path("service"), "--output", path("sheet.png"), "--language", "pl"});
   ASSERT_EQ(drawn.status, 0) << drawn.error;

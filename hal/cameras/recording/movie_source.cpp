@@ -182,6 +182,12 @@ class MovieSource final : public FrameSource {
     return total > 0 ? std::optional(total) : std::nullopt;
   }
 
+  std::optional<Duration> length() const override {
+    const std::int64_t length = file_.context->duration;
+    if (length == AV_NOPTS_VALUE || length <= 0) return std::nullopt;
+    return Duration(av_rescale(length, 1'000'000'000, AV_TIME_BASE));
+  }
+
   std::optional<PixelFormat> capturedLayout() const override {
     return isCapture() ? captures::pixelFormatNamed(tag(captures::kLayoutTag)) : std::nullopt;
   }

@@ -19,6 +19,7 @@ class PictureSource final : public FrameSource {
                 const RecordingOptions& options)
       : paths_(std::move(paths)), period_(period), onSkipped_(options.onSkipped) {
     if (!period_) return;
+    length_ = *period_ * static_cast<std::int64_t>(paths_.size());
     // The pictures whose times are in the part, counted in whole periods.
     const auto countBefore = [&](Duration time) {
       const auto count = std::max<std::int64_t>((time + *period_ - Duration(1)) / *period_, 0);
@@ -31,6 +32,7 @@ class PictureSource final : public FrameSource {
 
   std::optional<Duration> framePeriod() const override { return period_; }
   std::optional<std::uint64_t> frameCount() const override { return paths_.size() - first_; }
+  std::optional<Duration> length() const override { return length_; }
 
   SourceItem next() override {
     std::optional<Error> lastBroken;
@@ -52,6 +54,7 @@ class PictureSource final : public FrameSource {
  private:
   std::vector<std::filesystem::path> paths_;
   std::optional<Duration> period_;
+  std::optional<Duration> length_;
   std::function<void(const Error&)> onSkipped_;
   std::size_t next_ = 0;
   std::size_t first_ = 0;

@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "hal/cameras/recording/frame_source.h"
 #include "hal/cameras/recording/recording.h"
 #include "hal/cameras/recording/timeline.h"
@@ -96,6 +98,9 @@ Result<StreamFormat> RecordingCamera::start(const StreamRequest&) {
     if (options_.from > Duration::zero() || options_.to) {
       error.problem = "has no valid frame in the part that was asked for";
       error.remedy = "give another --from and --to: its time begins at 0";
+      if (const auto length = source_->length()) {
+        error.remedy += fmt::format(" and ends at {:.6g} s", toSeconds(*length));
+      }
     }
     if (const auto* end = std::get_if<EndOfStream>(&*ending_); end && end->truncated) {
       error = *end->truncated;

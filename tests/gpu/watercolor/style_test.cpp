@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include "config/config_error.h"
 #include "hal/error.h"
 #include "pipeline/styles/watercolor/watercolor.h"
 #include "tests/gpu/watercolor/watercolor_fixture.h"
@@ -361,24 +360,6 @@ TEST_F(WatercolorTest, MakesStylesByNameAndRefusesOthersWithTheList) {
     EXPECT_THAT(error.what(), testing::HasSubstr("watercolor, painterly, hatching, none"));
   }
   EXPECT_EQ(makeStyle("watercolor", library_)->kind().name, "watercolor");
-}
-
-TEST(StyleKinds, LooksGiveValuesOfTheStylesListAndUnknownOnesAreRefused) {
-  for (const StyleKind* kind : styleKinds()) {
-    for (const Look& look : kind->looks) {
-      SCOPED_TRACE(look.name);
-      const config::ParameterValues values = kind->parametersOf(look.name);
-      EXPECT_EQ(&values.list(), &kind->defaults.list());
-      EXPECT_EQ(values == kind->defaults, &look == &kind->looks.front());
-    }
-  }
-  try {
-    styleKind("watercolor").parametersOf("gouache");
-    FAIL() << "has it";
-  } catch (const config::ConfigError& error) {
-    EXPECT_EQ(error.found(), "gouache");
-    EXPECT_THAT(error.allowed(), testing::HasSubstr("line_and_wash"));
-  }
 }
 
 TEST_F(WatercolorTest, TheStyleNoneHandsTheFrameThrough) {

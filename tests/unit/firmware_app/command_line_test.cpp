@@ -131,6 +131,56 @@ TEST(CommandLine, NamesWhatItDoesNotKnowBeforeWhatIsMissing) {
   expectRefused({"--versoin"}, "--versoin: unknown option (did you mean \"--version\"?);");
 }
 
+TEST(CommandLine, SaysHowARecordingIsGiven) {
+  expectRefused({"run", "bench.mp4"},
+                "bench.mp4: unexpected argument: `pleinair run` takes a camera or a recording as "
+                "--camera NAME|FILE; `pleinair render FILE` paints every frame of a recording;");
+  expectRefused({"run", "--input", "bench.mp4"}, "--input: `pleinair run` takes a camera or a");
+  expectRefused({"record", "bench.mp4", "--output", "b.mp4"}, "`pleinair record` takes a camera");
+  expectRefused({"render", "--camera", "synthetic", "--output", "b.mp4"},
+                "--camera: `pleinair render` takes a recording, as FILE; `pleinair run` paints a "
+                "camera, `pleinair record` records one;");
+  expectRefused({"calibrate", "board.mp4", "--board", "checkerboard:9x6", "--output", "c.toml"},
+                "board.mp4: unexpected argument: give a recording as --input FILE;");
+}
+
+TEST(CommandLine, RefusesACalibrationWithoutACamera) {
+  expectRefused({"calibrate", "--board", "checkerboard:9x6", "--square", "0.02", "--output",
+                 "/no-such-folder/c.toml"},
+                "calibrate: is given no camera; give one, such as --camera auto, or a recording as "
+                "--input FILE");
+}
+
+TEST(CommandLine, RefusesAPartThatEndsBeforeItBegins) {
+  for (const char* end : {"1", "3"}) {
+    expectRefused({"render", "a.mp4", "--output", "b.mp4", "--from", "3", "--to", end},
+                  std::string("--to: ends at ") + end + " s, and --from begins at 3 s");
+  }
+}
+
+TEST(CommandLine, KnowsTheRangesAndOtherNamesOfCodecs) {
+  const auto refused = [](const std::vector<const char*>& options, const std::string& what) {
+    std::vector<const char*> arguments{"render", "a.mp4", "--output", "b.mp4"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    expectRefused(arguments, what);
+  };
+  refused({"--crf", "99"}, "--crf: found \"99\", allowed: a number from 0 to 51;");
+  refused({"--crf", "64", "--codec", "av1"},
+          "--crf: found \"64\", allowed: a number from 0 to 63;");
+  refused({"--crf", "52", "--codec", "hevc"}, "a number from 0 to 51;");
+  refused({"--crf", "63", "--codec", "av1"}, "a.mp4");
+  refused({"--codec", "h265"},
+          "--codec: found \"h265\" (did you mean \"hevc\"?), allowed: h264, hevc, av1, ffv1;");
+  refused({"--codec", "ffv"}, "(did you mean \"ffv1\"?)");
+}
+
+TEST(CommandLine, RefusesAFigureThatIsNotTheThesiss) {
+  expectRefused({"thesis", "--output", "/dev/null/r", "--only", "99"},
+                "--only: there is no figure \"99\"; give 15_16_21, ");
+  expectRefused({"thesis", "--output", "/dev/null/r", "--only", "16,26"},
+                "/dev/null/r: is no folder");
+}
+
 TEST(CommandLine, RefusesEmptyValues) {
   for (const char* option : {"--input", "--output"}) {
     const char* other = std::string("--input") == option ? "--output" : "--input";
@@ -196,6 +246,8 @@ TEST(CommandLine, HelpsAndTellsItsVersion) {
                                    "--size", "--frames", "--snapshots", "--shaders"}) {
     EXPECT_THAT(runHelp.output, HasSubstr(option));
   }
+  EXPECT_EQ(run({"help"}).output, help.output);
+  EXPECT_THAT(run({"help", "render"}).output, HasSubstr("Usage: pleinair render [OPTIONS] FILE"));
   const Outcome version = run({"--version"});
   EXPECT_EQ(version.status, 0);
   EXPECT_THAT(version.output, testing::ContainsRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));

@@ -48,6 +48,24 @@ TEST_F(ConfigurationTest, LeavesAMistakeWithinAFileToItsLine) {
   }
 }
 
+TEST_F(ConfigurationTest, SaysWhichKindOfFileAnotherSeemsToBe) {
+  const fs::path site = write("s.toml", "[camera]\nrate = 15\n[painting]\nlook = \"oil\"\n");
+  request_.options = {{"painting.scene", site.string(), "--scene"}};
+  const Configuration configuration = resolved();
+  try {
+    configuredScene(configuration);
+    ADD_FAILURE() << "taken";
+  } catch (const config::ConfigError& error) {
+    EXPECT_THAT(error.what(), StartsWith(site.string() + ": seems to be a configuration, not a"));
+    EXPECT_THAT(error.what(), HasSubstr("--config FILE"));
+  }
+  request_.options.clear();
+  request_.siteFile = write("desk.toml", "[camera]\nfx = 600\n\n[[tag]]\nid = 0\n");
+  EXPECT_EQ(refusal(), path("desk.toml").string() +
+                           ":4: seems to be a scene, not a configuration, allowed: a site file; a "
+                           "scene is given as --scene FILE");
+}
+
 TEST_F(ConfigurationTest, TakesADeviceNodeForItsCamera) {
   request_.options = {{"camera.source", "/dev/video9", "--camera"}};
   const CameraSettings camera = resolved().camera();

@@ -156,8 +156,8 @@ TEST_F(ConfigurationTest, TheSameStyleAgainKeepsThem) {
 TEST_F(ConfigurationTest, ALayersOwnLookIsOfTheStyleItNames) {
   request_.siteFile = write("s.toml", "[painting]\nlook = \"wet_in_wet\"\nstyle = \"none\"\n");
   EXPECT_EQ(refusal(), path("s.toml").string() +
-                           ":2: painting.look: found \"wet_in_wet\", allowed: the looks of none: "
-                           "default");
+                           ":2: painting.look: found \"wet_in_wet\" (a look of watercolor: --style "
+                           "watercolor), allowed: the looks of none: default");
   request_.siteFile = write("s.toml", "[painting]\nview = \"cels\"\n");
   EXPECT_THAT(refusal(), StartsWith(path("s.toml").string() +
                                     ":2: painting.view: found \"cels\" (did you mean \"cells\"?), "
@@ -171,7 +171,31 @@ TEST_F(ConfigurationTest, ALookOfAnotherStyleChoosesThatStyle) {
   request_.siteFile = write("s.toml", "[painting]\nstyle = \"hatching\"\n");
   EXPECT_EQ(resolved().painting().style, "painterly") << "of a weaker layer";
   request_.options.push_back({"painting.style", "watercolor", "--style"});
-  EXPECT_THAT(refusal(), StartsWith("--look: found \"oil\", allowed: the looks of watercolor: "));
+  EXPECT_THAT(refusal(),
+              StartsWith("--look: found \"oil\" (a look of painterly: --style painterly), "
+                         "allowed: the looks of watercolor: "));
+}
+
+TEST_F(ConfigurationTest, ANameOfAnotherStyleIsRefusedWithThatStyle) {
+  const auto refused = [&](const std::string& key, const std::string& text) {
+    request_.options = {{"painting." + key, text, "--" + key}};
+    return refusal();
+  };
+  EXPECT_THAT(refused("look", "oill"),
+              StartsWith("--look: found \"oill\" (did you mean \"oil\", a look of painterly?), "));
+  EXPECT_THAT(refused("look", "glased"), StartsWith("--look: found \"glased\" (did you mean "
+                                                    "\"glazed\"?), "));
+  EXPECT_THAT(refused("look", "watercolor"),
+              StartsWith("--look: found \"watercolor\" (a style: --style watercolor), "));
+  EXPECT_THAT(refused("view", "tensors"),
+              StartsWith("--view: found \"tensors\" (a view of painterly: --style painterly), "));
+  EXPECT_THAT(refused("view", "tensor"),
+              StartsWith("--view: found \"tensor\" (did you mean \"tensors\", a view of "
+                         "painterly?), "));
+  EXPECT_THAT(refused("style", "oil"), StartsWith("--style: found \"oil\" (a look of painterly: "
+                                                  "--look oil), allowed: one of watercolor, "));
+  EXPECT_THAT(refused("style", "watercolour"),
+              StartsWith("--style: found \"watercolour\" (did you mean \"watercolor\"?), "));
 }
 
 TEST_F(ConfigurationTest, EveryLookOfEveryStyleIsTaken) {

@@ -44,6 +44,22 @@ TEST(UnseenTagsWarning, IsSilentWhereNothingIsAmiss) {
   EXPECT_FALSE(unseenTagsWarning(sceneWithTags({3, 4}), {4}));
 }
 
+TEST(UnseenTagsWarning, LeavesOutTheOthersOfASingleFrame) {
+  scene::Scene scene = sceneWithTags({0, 4});
+  attachModel(scene, 4);
+  EXPECT_TRUE(unseenTagsWarning(scene, {0}));
+  EXPECT_FALSE(unseenTagsWarning(scene, {0}, true));
+  EXPECT_TRUE(unseenTagsWarning(scene, {}, true));
+}
+
+TEST(BlackViewWarning, NamesAViewOfMotionOfASingleFrame) {
+  scene::Scene scene = sceneWithTags({0});
+  attachModel(scene, 0);
+  EXPECT_THAT(blackViewWarning(scene, "motion", true), Optional(HasSubstr("--frames 2")));
+  EXPECT_THAT(blackViewWarning(scene, "motion_error", true), Optional(HasSubstr("one frame")));
+  EXPECT_FALSE(blackViewWarning(scene, "depth", true));
+}
+
 TEST(BlackViewWarning, NamesAViewOfModelsThatAreNotThere) {
   EXPECT_THAT(blackViewWarning(scene::Scene{}, "motion"), Optional(HasSubstr("the view motion")));
   EXPECT_FALSE(blackViewWarning(scene::Scene{}, "anchors"));

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "config/config_error.h"
 #include "pipeline/styles/registry.h"
 
 namespace pleinair::styles {
@@ -28,6 +29,24 @@ TEST(StyleKinds, AreDescribedInFull) {
     EXPECT_FALSE(kind->coherence.holdsAnchors && kind->coherence.empty());
   }
   EXPECT_THAT(names, testing::IsSupersetOf({"watercolor", "painterly", "hatching", "none"}));
+}
+
+TEST(StyleKinds, LooksGiveValuesOfTheStylesListAndUnknownOnesAreRefused) {
+  for (const StyleKind* kind : styleKinds()) {
+    for (const Look& look : kind->looks) {
+      SCOPED_TRACE(look.name);
+      const config::ParameterValues values = kind->parametersOf(look.name);
+      EXPECT_EQ(&values.list(), &kind->defaults.list());
+      EXPECT_EQ(values == kind->defaults, &look == &kind->looks.front());
+    }
+  }
+  try {
+    styleKind("watercolor").parametersOf("gouache");
+    FAIL() << "has it";
+  } catch (const config::ConfigError& error) {
+    EXPECT_EQ(error.found(), "gouache");
+    EXPECT_THAT(error.allowed(), testing::HasSubstr("line_and_wash"));
+  }
 }
 
 TEST(DebugViews, GiveShadersTheirOwnNumbers) {

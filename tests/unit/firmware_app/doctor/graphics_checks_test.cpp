@@ -23,7 +23,9 @@ TEST(CheckGraphics, WarnsOfSoftware) {
   const Finding finding = checkGraphics(machine.probes());
   EXPECT_EQ(finding.verdict, Verdict::kWarning);
   EXPECT_THAT(finding.text, HasSubstr("software"));
-  EXPECT_THAT(finding.remedy, HasSubstr("--size"));
+  EXPECT_THAT(finding.remedy, HasSubstr("the GPU's own driver, or paint smaller: --size"));
+  machine.folders["/dev/dri"] = {};
+  EXPECT_EQ(checkGraphics(machine.probes()).remedy, "paint smaller: --size 320x240");
 }
 
 TEST(CheckGraphics, IsWrongWithoutAContext) {

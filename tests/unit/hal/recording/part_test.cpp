@@ -1,4 +1,5 @@
 // A part of a recording, from one time to another.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/av_movie.h"
@@ -60,6 +61,7 @@ TEST_P(Part, BeyondTheEndIsAnError) {
   const auto part = support::play(path_, {.from = 10s});
   ASSERT_FALSE(part);
   EXPECT_EQ(part.error().problem, "has no valid frame in the part that was asked for");
+  EXPECT_THAT(part.error().remedy, testing::HasSubstr("its time begins at 0 and ends at 2 s"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Containers, Part, testing::Values("a.mkv", "a.mp4"));
@@ -73,6 +75,15 @@ TEST(PartOfAFolder, CountsInPeriods) {
   ASSERT_TRUE(part);
   EXPECT_EQ(part->frames.size(), 3U) << "0.3, 0.4 and 0.5 s";
   EXPECT_EQ(part->format.frameCount, 3U);
+}
+
+TEST(PartOfAFolder, BeyondTheEndIsAnErrorWithTheLength) {
+  const support::TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "in");
+  support::writeMedia(folder.path() / "in/", 10);
+  const auto part = support::play(folder.path() / "in", {.picturePeriod = 100ms, .from = 10s});
+  ASSERT_FALSE(part);
+  EXPECT_THAT(part.error().remedy, testing::HasSubstr("its time begins at 0 and ends at 1 s"));
 }
 
 TEST(PartOfAFolder, TellsWhichPicturesAreLeftOut) {
