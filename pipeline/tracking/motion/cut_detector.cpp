@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
@@ -18,6 +21,27 @@ void Thumbnail::load(const LumaPyramid& pyramid) {
   cv::resize(level, small, {kWidth, kHeight}, 0.0, 0.0, cv::INTER_AREA);
   cv::Mat target(kHeight, kWidth, CV_32F, values_.data());
   small.convertTo(target, CV_32F);
+}
+
+double Thumbnail::mean() const {
+  const double sum = std::accumulate(values_.begin(), values_.end(), 0.0);
+  return sum / static_cast<double>(values_.size());
+}
+
+double Thumbnail::unchangedPart(const Thumbnail& other) const {
+  constexpr float kChanged = 2.5F;  // grey levels
+  constexpr float kBlack = 10.0F;
+  std::array<float, std::tuple_size_v<decltype(values_)>> differences{};
+  std::ranges::transform(other.values_, values_, differences.begin(), std::minus<>{});
+  const auto middle = differences.begin() + differences.size() / 2;
+  std::nth_element(differences.begin(), middle, differences.end());
+  const float light = *middle;
+  std::size_t unchanged = 0;
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const bool isSeen = values_[i] > kBlack && other.values_[i] > kBlack;
+    unchanged += isSeen && std::abs(other.values_[i] - values_[i] - light) < kChanged ? 1U : 0U;
+  }
+  return static_cast<double>(unchanged) / static_cast<double>(values_.size());
 }
 
 double Thumbnail::contrast() const {
@@ -80,7 +104,13 @@ constexpr std::size_t kMaxBlankBlocks = 2;  // with texture, of a blank frame
 constexpr double kLostShare = 0.15;   // part of the features found; less means that they are lost
 constexpr double kSameScene = 0.8;    // correlation of thumbnails
 constexpr double kMinContrast = 4.0;  // standard deviation of a thumbnail, grey levels
-constexpr int kMaxBlankFrames = 12;   // blank frames after which the earlier scene is given up
+constexpr double kMinMean = 16.0;     // grey levels of a bare wall: less may be a covered lens
+constexpr double kUnchangedPart = 0.6;
+constexpr int kMaxBlankFrames = 12;  // blank frames after which the earlier scene is given up
+
+bool isBare(const Thumbnail& thumbnail) {
+  return thumbnail.contrast() < kMinContrast;
+}
 
 }  // namespace
 
@@ -92,11 +122,17 @@ CutDetector::Likeness CutDetector::compare(double foundShare, double noise) {
   const auto back = comparison_.compare(current_.view, seen_.view, noise);
   if (back.textured >= kMinBlocks && back.sharedPart >= kSharedPart) return Likeness::kSameView;
   const bool isLost = foundShare < kLostShare;
-  if (back.textured <= kMaxBlankBlocks && isLost && current_.thumbnail.contrast() < kMinContrast) {
-    return Likeness::kBlank;
+  if (back.textured <= kMaxBlankBlocks && isLost && isBare(current_.thumbnail)) {
+    const bool isWall = isBare(seen_.thumbnail) && seen_.thumbnail.mean() > kMinMean &&
+                        current_.thumbnail.mean() > kMinMean;
+    return isWall ? Likeness::kSameView : Likeness::kBlank;
   }
   const bool canCompare = there.textured >= kMinBlocks && back.textured >= kMinBlocks;
   if (!canCompare && !isLost) return Likeness::kSameView;
+  // Somebody who comes before a bare wall brings all of the texture.
+  const bool isSameWall =
+      !canCompare && seen_.thumbnail.unchangedPart(current_.thumbnail) >= kUnchangedPart;
+  if (isSameWall) return Likeness::kSameView;
   if (canCompare && foundShare < kHalfFollowedShare) return Likeness::kOtherView;
   const double correlation = seen_.thumbnail.match(current_.thumbnail).correlation;
   return correlation < (canCompare ? kSameThumbnail : kSameScene) ? Likeness::kOtherView

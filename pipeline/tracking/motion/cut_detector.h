@@ -18,6 +18,10 @@ class Thumbnail {
   void load(const LumaPyramid& pyramid);
   /// Standard deviation in grey levels; close to zero for a covered lens.
   double contrast() const;
+  double mean() const;
+  /// The part of the cells in which another thumbnail has changed by no more than the light, and
+  /// which are not black.
+  double unchangedPart(const Thumbnail& other) const;
 
   /// The best match of another thumbnail over all shifts by up to a quarter of the sides.
   struct Match {
@@ -40,7 +44,8 @@ class Thumbnail {
 /// features are lost and hardly any of the blocks with texture are seen again, forwards or
 /// backwards in time, under one motion that a camera can make between two frames (ViewComparison).
 /// Where blocks cannot tell, for want of texture or because it repeats, thumbnails that match keep
-/// the view. docs/decisions/0025-cuts.md has the margins. One thread at a time.
+/// the view, and so does a bare wall of which most is as it was. docs/decisions/0025-cuts.md has
+/// the margins. One thread at a time.
 class CutDetector {
  public:
   /// Takes the next frame, the part of the previous frame's features that were found in it, and the

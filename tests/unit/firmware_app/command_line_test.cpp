@@ -58,7 +58,7 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow) {
         {"record", "--output", "/no-such-folder/b.mp4", "--camera", camera},
         "synthetic, synthetic:walkaround, synthetic:pan, synthetic:dolly, synthetic:roll, "
         "synthetic:still, synthetic:occluder, synthetic:cut, synthetic:visitors, synthetic:lights, "
-        "synthetic:hand, synthetic:crossing");
+        "synthetic:hand, synthetic:crossing, synthetic:portrait");
   }
 }
 
@@ -81,7 +81,7 @@ TEST(CommandLine, NamesOnlyTheShotsWhereAShotIsUnknown) {
       "pleinair: --camera: found \"synthetic:nope\", allowed: synthetic, synthetic:walkaround, "
       "synthetic:pan, synthetic:dolly, synthetic:roll, synthetic:still, synthetic:occluder, "
       "synthetic:cut, synthetic:visitors, synthetic:lights, synthetic:hand, "
-      "synthetic:crossing\n");
+      "synthetic:crossing, synthetic:portrait\n");
 }
 
 TEST(CommandLine, PointsToTheHelpOfTheSubcommand) {

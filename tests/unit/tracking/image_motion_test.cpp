@@ -218,8 +218,10 @@ int framesThatMove(ImageMotionOptions options, const std::vector<glm::ivec2>& po
   for (int i = 0; i < 40; ++i) {
     WallView wall{.size = kSize, .noiseSigma = 1.0, .noiseSeed = 1U + static_cast<unsigned>(i)};
     wall.contrast = 0.0;
+    wall.brightness = 110.0;
     hal::Image image = support::renderWall(wall);
     wall.contrast = 1.0;
+    wall.brightness = 0.0;
     for (const glm::ivec2& at : posters) support::overlayWall(image, wall, at, at + 30);
     const glm::dvec2 sway(2.0 * std::cos(0.15 * i), 0.7 * std::sin(0.2 * i));
     away += sway;
@@ -294,6 +296,23 @@ TEST(ImageMotion, ACoveredLensIsNoCutAndWhatItShowedIsFoundAgain) {
   EXPECT_FALSE(back.isCut);
   EXPECT_GT(back.features.size(), 40U);
   EXPECT_TRUE(back.picture);
+}
+
+TEST(ImageMotion, SomebodyWhoComesBeforeABareWallIsNoCut) {
+  Watch watch;
+  for (int i = 0; i < 120; ++i) {
+    WallView wall{.size = kSize, .noiseSigma = 2.0, .noiseSeed = 1U + static_cast<unsigned>(i)};
+    wall.contrast = 0.0;
+    wall.brightness = 120.0 - 0.4 * i;  // the sun sets
+    hal::Image image = support::renderWall(wall);
+    WallView person = wall;
+    person.contrast = 1.0;
+    person.brightness = 0.0;
+    person.wallSeed = 5;
+    const int right = std::min(5 * (i - 90), 150);
+    if (right > 0) support::overlayWall(image, person, {0, 60}, {right, kSize.height});
+    EXPECT_EQ(watch.see(image).isCut, i == 0) << i;
+  }
 }
 
 TEST(ImageMotion, AFlashIsNoCut) {

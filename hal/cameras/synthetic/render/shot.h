@@ -20,7 +20,7 @@ enum class SyntheticShot {
   kLights,      ///< static; a spotlight goes on and off, and the exposure falls and recovers
   kHand,        ///< static; the arm reaches in slowly, rests, goes on, and withdraws
   kCrossing,    ///< as kVisitors; two persons come from both sides and pass each other
-  kPortrait,    ///< static; a person stands close before a bare wall, sways and gestures
+  kPortrait,    ///< static; a person comes close before a bare wall, sways and gestures
 };
 
 std::string_view toString(SyntheticShot shot);
