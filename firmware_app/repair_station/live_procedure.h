@@ -39,8 +39,8 @@ struct LiveProcedureOptions {
 /// thread, unless said otherwise.
 ///
 /// Page Down, which pedals and presenters send, ends a step; Page Up goes back; y and n answer;
-/// digits and Enter give a value; Enter signs off at the end, Shift-X before it. Page Down answers
-/// no question: a check is not passed by going on.
+/// digits and Enter give a value; Enter signs off at the end, Shift-X twice before it. Page Down
+/// answers no question: a check is not passed by going on.
 ///
 /// A StepWorker writes the record. A step is left once its line is on the disk, which poll() sees;
 /// until then further answers are refused with a notice. So is an answer that the thread finds a
@@ -51,9 +51,9 @@ struct LiveProcedureOptions {
 class LiveProcedure {
  public:
   static constexpr hal::Duration kOneAtATime = std::chrono::milliseconds(400);
-  /// A contact that bounces presses twice.
   /// Within this of the first press, a second one signs off before the end.
   static constexpr hal::Duration kAbortAgain = std::chrono::seconds(5);
+  /// A contact that bounces presses twice.
   static constexpr hal::Duration kBounce = std::chrono::milliseconds(50);
   /// How long a pose says where the machine is, where no frame comes.
   static constexpr hal::Duration kPoseLasts = std::chrono::milliseconds(500);

@@ -20,6 +20,7 @@ void LiveProcedure::beginMove() {
   moves_ = true;
   moved_ = clock_.now();
   moveSource_ = source_;
+  asked_.reset();
 }
 
 /// Gives what ends, leaves or signs off: until it is done, nothing else of that kind is taken.

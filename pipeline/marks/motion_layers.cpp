@@ -32,7 +32,7 @@ constexpr hal::Duration kDoubted = std::chrono::seconds(3);
 constexpr unsigned kTurns = 2;  // shaders/motion_layers_tally.glsl
 constexpr std::size_t kTallied = 3;
 constexpr std::size_t kPartBytes = 60;  // shaders/mover_parts.glsl
-/// Places of commands in a buffer of words, and words, as in shaders/busy_blocks.glsl.
+/// Words of the buffer, as in shaders/busy_blocks.glsl: before those of blocks, and of a block.
 constexpr std::size_t kBusyWords = 21;
 constexpr std::size_t kBusyWordsOfBlock = 3;
 constexpr std::size_t kRegistrations = 2;  // steps of shaders/mover_registration.comp

@@ -13,7 +13,7 @@ const uint kIsBusy = 4u;      // a cell is other content, or was a mover's
 const uint kIsOfFirst = 8u;   // the block is in the first list
 const uint kIsOfSecond = 16u;
 
-// Words of commands, as in motion_layers.cpp.
+// Words of commands, as in marks::BlockCommand.
 const int kNearCommand = 0;    // a group for each block of the first list
 const int kBusyCommand = 3;    // a group for each block of the second list
 const int kCountCommand = 6;   // an invocation for each block of the second list
@@ -27,7 +27,7 @@ const int kBusyWords = 21;
 layout(std430, binding = 1) buffer BusyBlocks { uint busyWords[]; };
 uniform ivec2 grid;
 
-// Whether the invocation's group is not of a command's.
+// Whether the invocation's group is beyond those of a command.
 bool isBeyond(int command) { return gl_WorkGroupID.x >= busyWords[command]; }
 int blockCount() { return grid.x * grid.y; }
 int flagsAt(ivec2 block) { return kBusyWords + block.y * grid.x + block.x; }

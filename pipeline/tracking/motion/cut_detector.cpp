@@ -35,6 +35,8 @@ double Thumbnail::unchangedPart(const Thumbnail& other) const {
   std::ranges::transform(other.values_, values_, differences.begin(), std::minus<>{});
   const auto middle = differences.begin() + differences.size() / 2;
   std::nth_element(differences.begin(), middle, differences.end());
+  constexpr float kMostLight = 20.0F;  // a bare view of another colour is another view
+  if (std::abs(*middle) > kMostLight) return 0.0;
   const float light = *middle;
   std::size_t unchanged = 0;
   for (std::size_t i = 0; i < values_.size(); ++i) {

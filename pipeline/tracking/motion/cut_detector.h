@@ -18,7 +18,7 @@ class Thumbnail {
   void load(const LumaPyramid& pyramid);
   /// Standard deviation in grey levels; close to zero for a covered lens.
   double contrast() const;
-  double mean() const;
+  double mean() const;  ///< grey levels
   /// The part of the cells in which another thumbnail has changed by no more than the light, and
   /// which are not black.
   double unchangedPart(const Thumbnail& other) const;
@@ -52,6 +52,8 @@ class CutDetector {
   /// noise of the pyramid's pixels (levels). The first frame is a cut. Frames without contrast
   /// count as a cut only after several in a row.
   bool isCut(const LumaPyramid& current, double foundShare, double noise);
+  /// Whether the last frame was blank, as of a covered lens.
+  bool isBlank() const { return blankFrames_ > 0; }
   /// Treats the next frame as the first one.
   void reset() { hasSeen_ = false; }
 
@@ -63,7 +65,7 @@ class CutDetector {
   enum class Likeness { kSameView, kOtherView, kBlank };
   Likeness compare(double foundShare, double noise);
 
-  Frame seen_;  // the last frame with contrast
+  Frame seen_;  // the last frame with contrast, or of a bare wall
   Frame current_;
   ViewComparison comparison_;
   bool hasSeen_ = false;

@@ -92,7 +92,8 @@ struct ImageMotion {
   /// applies.
   bool isCut = false;
   std::span<const FeatureMotion> features;
-  std::optional<ImageHomography> picture;  ///< empty where too few features agree
+  std::optional<ImageHomography> picture;  ///< empty where too few features agree and
+                                           ///< the camera is not known to stand
   DenseFlow flow;                          ///< without nodes where it was not estimated
   StaticRegions still;                     ///< without cells where they were not detected
   double noiseLevels = 0.0;                ///< standard deviation of a pixel's luma, in 1/255

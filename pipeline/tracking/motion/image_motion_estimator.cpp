@@ -66,7 +66,7 @@ const ImageMotion& ImageMotionEstimator::follow(LumaFrame& frame, std::uint64_t 
   } else {
     s.hold.update(seen, size, scale);
     s.motion.features = s.hold.features();
-    s.motion.picture = s.hold.picture();
+    if (!s.cuts.isBlank()) s.motion.picture = s.hold.picture();
   }
   if (s.options.staticRegions) s.staticRegions.update(*current, s.motion.picture);
   if (s.options.staticRegions && !s.motion.isCut) s.motion.still = s.staticRegions.fields();

@@ -146,7 +146,7 @@ JitterSuppressor::PlaceCounts JitterSuppressor::countPlaces(const HomographyFit&
 /// and even for a part of it: half of the image at rest, half of it moving looks like a shear.
 /// Where the fit contradicts what is at rest in more places than it hits, and most of the image is
 /// at rest, the camera stands.
-bool JitterSuppressor::isMoversFit(const PlaceCounts& places) const {
+bool JitterSuppressor::contradictsRest(const PlaceCounts& places) const {
   constexpr std::size_t kLeastPlaces = 4;
   // While the camera has stood until now, half as much will do.
   const std::size_t weight = isHeld_ ? 2 : 1;
@@ -158,9 +158,9 @@ bool JitterSuppressor::isMoversFit(const PlaceCounts& places) const {
 /// a good part of the image hardly moves, and the fit, if there is one, says less well how than no
 /// motion would, the camera stands. Errors are those that were predicted: calibrated ones have
 /// grown with the mover.
-bool JitterSuppressor::isRatherAtRest(const std::optional<HomographyFit>& fit, hal::FrameSize size,
-                                      double scale) {
-  const std::size_t leastPlaces = fit ? 8 : 4;
+bool JitterSuppressor::restSpeaksAgainst(const std::optional<HomographyFit>& fit,
+                                         hal::FrameSize size, double scale) {
+  const std::size_t leastAtRest = fit ? 8 : 4;
   Places seen;
   Places atRest;
   apart_.clear();
@@ -177,7 +177,7 @@ bool JitterSuppressor::isRatherAtRest(const std::optional<HomographyFit>& fit, h
     const glm::dvec2 fitted = movedBy(fit->currentFromPrevious, pair.previous);
     apart_.push_back(glm::distance(fitted, pair.current) / pair.errorPx);
   }
-  if (atRest.count() < leastPlaces || 3 * atRest.count() < seen.count()) return false;
+  if (atRest.count() < leastAtRest || 3 * atRest.count() < seen.count()) return false;
   return !fit || medianOf(apart_) > medianOf(moved_);
 }
 
@@ -222,18 +222,19 @@ void JitterSuppressor::movePicture(hal::FrameSize size, double scale) {
   isSettling_ = false;
   auto fit = fitter_.fit(pairs_, size);
   const PlaceCounts places = fit ? countPlaces(*fit, size, scale) : PlaceCounts{};
-  const bool stands =
-      isMounted_ ? !isShifted(places) : isMoversFit(places) || isRatherAtRest(fit, size, scale);
+  const bool stands = isMounted_ ? !isShifted(places)
+                                 : contradictsRest(places) || restSpeaksAgainst(fit, size, scale);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     reported_[pairOf_[i]].agrees = stands ? isAtRest(pairs_[i], scale) : fit && fitter_.agrees(i);
   }
   if (!fit) {
-    if (stands && (isHeld_ || isMounted_)) picture_ = ImageHomography{.errorPx = kMinErrorPx * scale};
+    const bool isKnown = stands && (isHeld_ || isMounted_);
+    if (isKnown) picture_ = ImageHomography{.errorPx = kMinErrorPx * scale};
     return;
   }
   if (stands) fit->currentFromPrevious = glm::dmat3(1.0);
-  // A fit of what moves before a mounted camera says little of features.
-  if (!isMounted_ || 2 * places.atRest >= places.seen) calibrate(*fit);
+  // The rest of features that mostly move says nothing of their errors.
+  if (!stands || 2 * places.atRest >= places.seen) calibrate(*fit);
   if (isHeld_) {
     suppressJitter(*fit, size, scale);
   } else {

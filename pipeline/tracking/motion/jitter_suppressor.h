@@ -15,7 +15,8 @@ namespace pleinair::tracking {
 
 /// Suppresses jitter: of each feature, and of the image as a whole. A held feature has a fixed
 /// position from which its motion is measured, so that slow motion accumulates until the feature is
-/// released and the whole motion is reported at once. One thread at a time.
+/// released and the whole motion is reported at once. It also tells a camera that stands from one
+/// whose fitted motion is that of a mover, by what is at rest. One thread at a time.
 class JitterSuppressor {
  public:
   /// `isMounted`: ImageMotionOptions::isMounted.
@@ -57,9 +58,10 @@ class JitterSuppressor {
 
   void match(std::span<const SeenFeature> seen);
   PlaceCounts countPlaces(const HomographyFit& fit, hal::FrameSize size, double scale) const;
-  bool isMoversFit(const PlaceCounts& places) const;
+  bool contradictsRest(const PlaceCounts& places) const;
   static bool isShifted(const PlaceCounts& places);
-  bool isRatherAtRest(const std::optional<HomographyFit>& fit, hal::FrameSize size, double scale);
+  bool restSpeaksAgainst(const std::optional<HomographyFit>& fit, hal::FrameSize size,
+                         double scale);
   void calibrate(const HomographyFit& fit);
   void movePicture(hal::FrameSize size, double scale);
   void suppressJitter(const HomographyFit& fit, hal::FrameSize size, double scale);
@@ -71,7 +73,7 @@ class JitterSuppressor {
   std::vector<ReportedFeature> reported_;  // by rising id
   std::vector<ReportedFeature> next_;
   std::vector<PointPair> pairs_;
-  std::vector<double> apart_;        // of features at rest, in predicted errors: from the fit …
+  std::vector<double> apart_;        // of features at rest, in their errors: from the fit …
   std::vector<double> moved_;        // … and from where they were
   std::vector<std::size_t> pairOf_;  // index in reported_, per pair
   std::vector<FeatureMotion> motions_;

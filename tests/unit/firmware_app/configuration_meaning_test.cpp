@@ -128,7 +128,7 @@ TEST_F(ConfigurationTest, TellsEveryKindOfOrigin) {
   request_.set = {"wobble=0.1"};
   const std::string toml = resolved().toToml(config::Printed::kAll);
   for (const std::string line :
-       {"profile = \"kiosk\"  # --profile\n", "cell_size = 12  # profile kiosk:16\n",
+       {"profile = \"kiosk\"  # --profile\n", "cell_size = 12  # profile kiosk:17\n",
         "rate = 12.5  # PLEINAIR_CAMERA_RATE\n", "look = \"wet_in_wet\"  # --look\n",
         "wobble = 0.1  # --set wobble\n", "bleeding = 2  # look wet_in_wet\n",
         "view = \"finished\"  # default\n"}) {

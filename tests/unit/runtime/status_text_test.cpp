@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 using testing::HasSubstr;
 
 const std::vector<std::string>& levels() {
-  static const std::vector<std::string> kLevels{"full", "high"};
+  static const std::vector<std::string> kLevels{"full", "medium"};
   return kLevels;
 }
 
@@ -46,14 +46,14 @@ RuntimeStatus someStatus() {
 
 TEST(StatusLine, SaysTheMostImportant) {
   EXPECT_EQ(statusLine(someStatus(), levels()),
-            "streaming · 30.0 → 29.9 frames/s · 120 ms (p95 121) · high · 3 dropped");
+            "streaming · 30.0 → 29.9 frames/s · 120 ms (p95 121) · medium · 3 dropped");
 }
 
 TEST(StatusJson, HoldsEverything) {
   const auto json = nlohmann::json::parse(statusJson(someStatus(), levels()));
   EXPECT_EQ(json["camera"]["description"], "A \"good\"\ncamera");
   EXPECT_EQ(json["camera"]["format"]["width"], 640);
-  EXPECT_EQ(json["painting"]["quality"], "high");
+  EXPECT_EQ(json["painting"]["quality"], "medium");
   EXPECT_EQ(json["painting"]["latency_ms"], 120.0);
   EXPECT_EQ(json["frames"]["captured"], 103);
   EXPECT_EQ(json["frames"]["ended"]["replaced"], 3);
@@ -89,12 +89,12 @@ TEST(StatusJson, HoldsTheStateOfTheMachineAsFarAsItIsKnown) {
   EXPECT_EQ(json["machine"]["disk_free_bytes"], 16'000'000'000);
   EXPECT_EQ(json["machine"]["clock"], "wrong");
   EXPECT_EQ(json["machine"]["clock_jumps"], 2);
-  EXPECT_EQ(json["painting"]["quality_limit"], "high");
+  EXPECT_EQ(json["painting"]["quality_limit"], "medium");
   const std::string metrics = statusMetrics(status, levels());
   EXPECT_THAT(metrics, HasSubstr("\npleinair_machine_celsius 71.5\n"));
   EXPECT_THAT(metrics, HasSubstr("\npleinair_machine_clock_jumps_total 2\n"));
   EXPECT_THAT(metrics, HasSubstr("pleinair_machine_clock{clock=\"wrong\"} 1\n"));
-  EXPECT_THAT(metrics, HasSubstr("pleinair_painting_quality_limit{quality_limit=\"high\"} 1\n"));
+  EXPECT_THAT(metrics, HasSubstr("pleinair_painting_quality_limit{quality_limit=\"medium\"} 1\n"));
 }
 
 TEST(StatusJson, LeavesOutWhatIsNotKnown) {
@@ -159,7 +159,7 @@ TEST(StatusMetrics, AreInPrometheusFormat) {
   }
   EXPECT_EQ(text.back(), '\n');
   EXPECT_THAT(text, HasSubstr("pleinair_frames_ended_total{outcome=\"replaced\"} 3\n"));
-  EXPECT_THAT(text, HasSubstr("pleinair_painting_quality{quality=\"high\"} 1\n"));
+  EXPECT_THAT(text, HasSubstr("pleinair_painting_quality{quality=\"medium\"} 1\n"));
   EXPECT_THAT(text, HasSubstr("pleinair_output_latency_seconds_sum{output=\"loopback\"} 12.1\n"));
   EXPECT_THAT(text,
               HasSubstr("pleinair_output_latency_seconds{output=\"loopback\",quantile=\"0.95\"} "

@@ -272,6 +272,7 @@ TEST(ImageMotion, AMountedCameraMovesWhereAllOfTheImageDoes) {
 TEST(ImageMotion, AMountedCameraStandsBeforeNothing) {
   Watch watch({.isMounted = true});
   watch.view().contrast = 0.0;
+  watch.view().brightness = 110.0;
   watch.step(glm::dmat3(1.0));
   for (int i = 0; i < 4; ++i) {
     const ImageMotion& motion = watch.step(glm::dmat3(1.0));
@@ -280,9 +281,9 @@ TEST(ImageMotion, AMountedCameraStandsBeforeNothing) {
   }
 }
 
-TEST(ImageMotion, ACoveredLensIsNoCutAndWhatItShowedIsFoundAgain) {
-  Watch watch;
-  const glm::dmat3 step = currentFromPrevious({.shift = {0.5, 0.0}}, kSize);
+/// `step`: of the camera.
+void expectALensToBeCovered(ImageMotionOptions options, const glm::dmat3& step) {
+  Watch watch(options);
   for (int i = 0; i < 4; ++i) watch.step(step);
   const hal::Image covered({.pixelFormat = hal::PixelFormat::kGrey8, .size = kSize});
   for (int i = 0; i < 3; ++i) {
@@ -296,6 +297,31 @@ TEST(ImageMotion, ACoveredLensIsNoCutAndWhatItShowedIsFoundAgain) {
   EXPECT_FALSE(back.isCut);
   EXPECT_GT(back.features.size(), 40U);
   EXPECT_TRUE(back.picture);
+}
+
+TEST(ImageMotion, ACoveredLensIsNoCutAndWhatItShowedIsFoundAgain) {
+  expectALensToBeCovered({}, currentFromPrevious({.shift = {0.5, 0.0}}, kSize));
+  expectALensToBeCovered({.isMounted = true}, glm::dmat3(1.0));
+}
+
+TEST(ImageMotion, AnotherViewAfterABareWallIsACut) {
+  for (const double brightness : {120.0, 45.0}) {
+    Watch watch;
+    WallView wall{.size = kSize, .noiseSigma = 2.0};
+    wall.contrast = 0.0;
+    wall.brightness = brightness;
+    for (int i = 0; i < 20; ++i) {
+      ++wall.noiseSeed;
+      EXPECT_EQ(watch.see(support::renderWall(wall)).isCut, i == 0) << i;
+    }
+    // Another wall, of another colour, with something large before it.
+    wall.brightness = brightness + 60.0;
+    hal::Image image = support::renderWall(wall);
+    WallView thing{.size = kSize, .noiseSigma = 2.0};
+    support::overlayWall(image, thing, {30, 90}, {130, kSize.height});
+    EXPECT_TRUE(watch.see(image).isCut);
+    EXPECT_TRUE(watch.see(support::renderWall({.size = kSize, .wallSeed = 9})).isCut);
+  }
 }
 
 TEST(ImageMotion, SomebodyWhoComesBeforeABareWallIsNoCut) {

@@ -36,7 +36,7 @@ layout(location = 0) out vec4 picture;
 
 // Strokes that go with a model or a mover change the relief of each pixel, which glitters. A mover's
 // paint is lit like that of no more than this relief.
-const float kCarriedRelief = 0.75;
+const float kModelRelief = 0.75;
 const float kMoverRelief = 0.9;
 
 // Dry paint stays on the substrate's heights; more paint reaches deeper.
@@ -60,7 +60,7 @@ void main() {
   float moving = movingAt(gl_FragCoord.xy / pixelsOfFull);
   bool isModel = hasObjects && isVirtual(objectOf(texelFetch(ids, p, 0).r));
   float onMover = min(1.0, kMoverRelief / max(relief, 1e-3));
-  slope *= isModel ? kCarriedRelief : mix(1.0, onMover, moving);
+  slope *= isModel ? kModelRelief : mix(1.0, onMover, moving);
   uint border = hasBorders ? texelFetch(borders, p, 0).r : 0u;
   // The heights of the two sides differ by a step that no paint has.
   if (isMoverBorder(border)) slope = vec2(0.0);

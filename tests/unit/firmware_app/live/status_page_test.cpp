@@ -56,11 +56,11 @@ TEST(StatusPage, SaysHowTheMachineIs) {
   status.painting.hasPainter = true;
   status.painting.quality = 1;
   status.painting.bestQuality = 1;
-  const std::string page = statusPage(status, "none", {"full", "high"});
+  const std::string page = statusPage(status, "none", {"full", "medium"});
   EXPECT_THAT(page, HasSubstr("cpu-thermal at 76 °C (slows down from 80 °C on); 312 MB of memory "
                               "used; 1.2 GB available; 14.3 GB of disk free"));
   EXPECT_THAT(page, HasSubstr("wrong: no schedule is followed; jumped 2 times"));
-  EXPECT_THAT(page, HasSubstr("at most high until the machine has cooled"));
+  EXPECT_THAT(page, HasSubstr("at most medium until the machine has cooled"));
 }
 
 TEST(StatusPage, ShowsNoMarkupOfNames) {

@@ -64,11 +64,11 @@ class LiveProcedureTest : public testing::Test {
                          clock_);
   }
 
-  /// Presses keys with spaces between them.
   /// Signs off before the end.
   static void pressAbort(LiveProcedure& procedure) {
     for (int i = 0; i < 2; ++i) EXPECT_TRUE(procedure.press({.name = "x", .shift = true}));
   }
+  /// Presses keys with spaces between them.
   static void press(LiveProcedure& procedure, const std::string& keys) {
     std::size_t at = 0;
     while (at < keys.size()) {

@@ -48,7 +48,8 @@ TEST(SyntheticKind, RefusesUnknownShotsWithTheList) {
     EXPECT_EQ(format.error().message(), "synthetic:" + std::string(name) +
                                             ": the synthetic camera has no shot \"" + name +
                                             "\"; allowed: walkaround, pan, dolly, roll, still, "
-                                            "occluder, cut, visitors, lights, hand, crossing");
+                                            "occluder, cut, visitors, lights, hand, crossing, "
+                                            "portrait");
   }
 }
 
