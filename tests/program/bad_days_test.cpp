@@ -245,7 +245,8 @@ TEST_F(BadDay, AnOutputFolderThatIsDeletedMeanwhile) {
 }
 
 TEST_F(BadDay, APartWithoutFrames) {
-  expectRefusal({"--input", path("in.y4m"), "--to", "0"}, HasSubstr("--from and --to"));
+  expectRefusal({"--input", path("in.y4m"), "--to", "0"},
+                HasSubstr("--to: ends at 0 s, and --from begins at 0 s"));
 }
 
 TEST_F(BadDay, ConfigurationsFromWindowsAndFromElsewhere) {

@@ -27,11 +27,12 @@ class MalformedRender : public testing::TestWithParam<const char*> {
     const auto played = play(output);
     ASSERT_TRUE(played) << played.error().message();
     EXPECT_FALSE(played->frames.empty());
-    if (isSound) {
-      EXPECT_EQ(run.error, "");
-    }
     for (std::size_t at = 0; at < run.error.size(); at = run.error.find('\n', at) + 1) {
-      EXPECT_THAT(run.error.substr(at), testing::StartsWith("pleinair: warning: "));
+      const std::string line = run.error.substr(at, run.error.find('\n', at) - at);
+      // A movie that becomes larger by a column or a row says so, whatever the input.
+      if (line.find(": movies have even sides: ") != std::string::npos) continue;
+      EXPECT_FALSE(isSound) << line;
+      EXPECT_THAT(line, testing::StartsWith("pleinair: warning: "));
     }
   }
 
