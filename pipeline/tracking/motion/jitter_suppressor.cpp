@@ -34,7 +34,8 @@ double bandOf(const PointPair& pair, double scale) {
   return std::max(kBandPx * scale, kFeatureErrors * pair.errorPx);
 }
 
-using Places = std::bitset<kPlaceColumns * kPlaceRows>;
+constexpr std::size_t kPlaces = std::size_t{kPlaceColumns} * kPlaceRows;
+using Places = std::bitset<kPlaces>;
 
 std::size_t placeOf(const glm::dvec2& px, hal::FrameSize size) {
   const auto partOf = [](double along, int sidePx, int parts) {
@@ -184,7 +185,7 @@ bool JitterSuppressor::restSpeaksAgainst(const std::optional<HomographyFit>& fit
 /// Whether a mounted camera has been pushed: all over the image, nearly everything moves as one,
 /// and next to nothing is at rest. Somebody who is close leaves some of the image.
 bool JitterSuppressor::isShifted(const PlaceCounts& places) {
-  constexpr std::size_t kLeastPlaces = kPlaceColumns * kPlaceRows * 2 / 3;
+  constexpr std::size_t kLeastPlaces = kPlaces * 2 / 3;
   return places.seen >= kLeastPlaces && 10 * places.hit >= 8 * places.seen &&
          10 * places.atRest <= places.seen;
 }
