@@ -61,7 +61,7 @@ struct PainterOptions {
   hal::FrameSize pictureSize;  ///< size of the full picture; frames are scaled to fill it
   scene::Scene scene;          ///< empty: the camera's image alone
   std::string style = "watercolor";
-  bool tracksTags = true;  ///< if unset, no tag is detected and no model appears
+  bool tracksTags = true;        ///< if unset, no tag is detected and no model appears
   bool isCameraMounted = false;  ///< tracking::ImageMotionOptions::isMounted
   PainterContext context = PainterContext::kOwn;
   std::filesystem::path shaderDirectory;  ///< overrides embedded shaders; empty: none
