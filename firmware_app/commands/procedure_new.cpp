@@ -79,7 +79,7 @@ scene::ModelSource sourceOf(const ProcedureNewOptions& options) {
   std::string keys = "source = " + *text + "\n";
   if (!options.units.empty()) keys += "units = \"" + options.units + "\"\n";
   const auto document = config::TomlDocument::parseText(keys, "--model");
-  const auto source = [&]() -> scene::ModelSource {
+  auto source = [&]() -> scene::ModelSource {
     try {
       return scene::readSource(document.root(), {});
     } catch (const config::ConfigError& error) {

@@ -43,7 +43,7 @@ std::string styleWith(const std::string& name, Names (*namesOf)(std::string_view
 /// `own`: the names of the style in force; `what`: "look".
 std::string foundName(const std::string& name, const Names& own, const char* what,
                       Names (*namesOf)(std::string_view)) {
-  const std::string found = config::quoted(name);
+  std::string found = config::quoted(name);
   if (const std::string other = styleWith(name, namesOf); !other.empty()) {
     return fmt::format("{} (a {} of {}: --style {})", found, what, other, other);
   }
