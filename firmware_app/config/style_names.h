@@ -9,8 +9,8 @@ namespace pleinair::app {
 /// All styles' names, in the order of lists.
 std::vector<std::string> styleNames();
 
-// What an error says was found where a name is not one of the style's: the name in quotes, with
-// the other style that has it, or with the name that it is most likely a misspelling of.
+// Texts for errors about a name that the style does not have: the name in quotes, with the other
+// style that has it, or with the name that it is most likely a misspelling of.
 
 /// `"oil" (a look of painterly: --look oil)` of a style's name.
 std::string foundStyle(const std::string& name);

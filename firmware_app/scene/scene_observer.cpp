@@ -106,8 +106,9 @@ std::vector<std::string> SceneObserver::findings() const {
   std::vector<std::string> findings;
   std::set<int> seen;
   for (const auto& [id, count] : sightings_) seen.insert(id);
-  if (auto unseen = unseenTagsWarning(scene_, seen, frames_ == 1))
+  if (auto unseen = unseenTagsWarning(scene_, seen, frames_ == 1)) {
     findings.push_back(*std::move(unseen));
+  }
   if (seen.empty() && !tagless_.empty()) {
     std::string family = mirrored_ == 0 ? familyFinding() : std::string();
     if (!family.empty()) findings.push_back(std::move(family));

@@ -5,22 +5,22 @@
 namespace pleinair::marks {
 namespace {
 
-/// The most groups that the command may have.
-glm::ivec2 mostGroups(BlockCommand command, glm::ivec2 grid) {
+/// The most groups of the program that the command may have.
+glm::ivec2 mostGroups(const gpu::Program& program, BlockCommand command, glm::ivec2 grid) {
   const int blocks = grid.x * grid.y;
   switch (command) {
     case BlockCommand::kNear:
     case BlockCommand::kBusy:
       return {blocks, 1};
     case BlockCommand::kCount:
-      return {(blocks + 63) / 64, 1};
+      return program.groupsFor({blocks, 1});
     case BlockCommand::kParts:
       return {1, 1};
     case BlockCommand::kGround:
     case BlockCommand::kMotion:
       break;
   }
-  return (grid + 7) / 8;
+  return program.groupsFor(grid);
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ gpu::Program& BusyBlocks::bind(gpu::Program& program) const {
 
 void BusyBlocks::dispatch(gpu::Program& program, GLbitfield barriers, BlockCommand command) const {
   const std::size_t offsetBytes = static_cast<std::size_t>(command) * sizeof(std::uint32_t);
-  bind(program).dispatchListed(*words, offsetBytes, mostGroups(command, grid), barriers);
+  bind(program).dispatchListed(*words, offsetBytes, mostGroups(program, command, grid), barriers);
 }
 
 }  // namespace pleinair::marks

@@ -9,14 +9,13 @@
 
 namespace pleinair::marks {
 
-/// What a program is dispatched for: the commands of shaders/busy_blocks.glsl, by their first
-/// words.
+/// Commands of shaders/busy_blocks.glsl, by their first words: what a program is dispatched for.
 enum class BlockCommand : std::size_t {
   kNear = 0,     ///< a group for each block that may be a mover's
   kBusy = 3,     ///< a group for each block of the second list
-  kCount = 6,    ///< an invocation for each of these, 64 in a group
+  kCount = 6,    ///< an invocation for each of these
   kParts = 9,    ///< one group, if there is a busy block
-  kGround = 12,  ///< an invocation for each block, 8 × 8 in a group, if there is a busy one
+  kGround = 12,  ///< an invocation for each block, if there is a busy one
   kMotion = 15,  ///< the same, or if there was one in the previous frame
 };
 

@@ -35,7 +35,8 @@ class FrameSource {
   virtual ~FrameSource() = default;
   virtual std::optional<Duration> framePeriod() const = 0;
   virtual std::optional<std::uint64_t> frameCount() const = 0;
-  /// Of the whole recording, whatever part of it is played; nothing where it is not known.
+  /// The length of the whole recording, whatever part of it is played; nothing where it is not
+  /// known.
   virtual std::optional<Duration> length() const { return std::nullopt; }
   /// The camera's layout of a captured stream (hal/captures), whose pixels it was stored from.
   virtual std::optional<PixelFormat> capturedLayout() const { return std::nullopt; }

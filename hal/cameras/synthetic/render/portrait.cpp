@@ -22,23 +22,22 @@ double swaying(double seconds, int times, double phase = 0) {
 
 }  // namespace
 
-void placePortrait(double unwrapped, BodyPoses& bodies) {
+void placePortrait(double seconds, BodyPoses& bodies) {
   constexpr std::size_t kFigure = 0;
-  const double seconds = unwrapped - kPortraitSeconds * std::floor(unwrapped / kPortraitSeconds);
+  const double t = seconds - kPortraitSeconds * std::floor(seconds / kPortraitSeconds);
   FigureJoints joints;
-  joints.lean = 0.05 + 0.05 * swaying(seconds, 3);
-  joints.twist = 0.16 * swaying(seconds, 4, 0.1);
-  joints.headTurn = 0.45 * swaying(seconds, 5, 0.3) + 0.15 * swaying(seconds, 11);
-  joints.headNod = 0.04 + 0.10 * swaying(seconds, 7, 0.2);
-  const double raised = glm::smoothstep(0.2, 0.9, swaying(seconds, 2, 0.4));
+  joints.lean = 0.05 + 0.05 * swaying(t, 3);
+  joints.twist = 0.16 * swaying(t, 4, 0.1);
+  joints.headTurn = 0.45 * swaying(t, 5, 0.3) + 0.15 * swaying(t, 11);
+  joints.headNod = 0.04 + 0.10 * swaying(t, 7, 0.2);
+  const double raised = glm::smoothstep(0.2, 0.9, swaying(t, 2, 0.4));
   joints.right.shoulder = 1.05 * raised;
-  joints.right.elbow = 0.16 + 1.35 * raised + 0.15 * raised * swaying(seconds, 17);
+  joints.right.elbow = 0.16 + 1.35 * raised + 0.15 * raised * swaying(t, 17);
   joints.left.elbow = 0.16;
   constexpr double kAway = 1.15;  // metres to the side: beyond the image
-  const double there = glm::smoothstep(0.5, 2.2, seconds) - glm::smoothstep(9.3, 11.0, seconds);
-  const double aside =
-      kAway * (1 - there) + 0.05 * swaying(seconds, 4) + 0.02 * swaying(seconds, 9, 0.6);
-  const glm::dvec3 place = kPlace + glm::dvec3(0.03 * swaying(seconds, 3, 0.5), aside, 0);
+  const double there = glm::smoothstep(0.5, 2.2, t) - glm::smoothstep(9.3, 11.0, t);
+  const double aside = kAway * (1 - there) + 0.05 * swaying(t, 4) + 0.02 * swaying(t, 9, 0.6);
+  const glm::dvec3 place = kPlace + glm::dvec3(0.03 * swaying(t, 3, 0.5), aside, 0);
   const glm::dmat4 worldFromFigure =
       glm::rotate(glm::translate(glm::dmat4(1), place), std::numbers::pi, glm::dvec3(0, 0, 1));
   const FigurePoses parts = figureFromParts(kFigure, joints);
