@@ -305,6 +305,16 @@ Violations atomicOrderRule(const ShaderText& shader) {
   return violations;
 }
 
+Violations listEndRule(const ShaderText& shader) {
+  const std::string code = statements(shader.expanded);
+  static const std::regex kReadsList("\\b(?:busyAt|nearAt)\\s*\\(\\s*int\\s*\\(\\s*gl_WorkGroupID");
+  static const std::regex kReturns(
+      "void\\s+main\\s*\\(\\s*\\)\\s*\\{\\s*if\\s*\\(\\s*isBeyond\\s*\\(");
+  if (!std::regex_search(code, kReadsList) || std::regex_search(code, kReturns)) return {};
+  return {
+      "main() does not begin with \"if (isBeyond(…)) return\": it runs beyond its list (rule 27)"};
+}
+
 Violations precisionRule(const ShaderText& shader) {
   const std::string code = statements(shader.expanded);
   Violations violations = forbid(code, "\\blowp\\b", "colours need 8 bits and more (rule 8)");
@@ -337,7 +347,7 @@ Violations shaderRules(const ShaderText& shader) {
   Violations violations;
   for (const auto rule : {headCommentRule, languageRule, graphicsStageRule, outputsRule,
                           computeLimitsRule, sharedMemoryRule, imageFormatsRule, atomicOrderRule,
-                          precisionRule, texturesRule, loopBoundsRule}) {
+                          listEndRule, precisionRule, texturesRule, loopBoundsRule}) {
     try {
       append(violations, rule(shader));
     } catch (const std::invalid_argument& unreadable) {

@@ -220,6 +220,16 @@ TEST(ShaderRules, RefuseOrderFromAtomics) {
   expectOnly(shader("a.comp", head + "uint f() { return atomicAdd(n, 1u); }"), "rule 7");
 }
 
+TEST(ShaderRules, RefuseRunsBeyondAList) {
+  const std::string head =
+      "layout(local_size_x = 64) in;\nbuffer B { uint busyWords[]; };\n"
+      "int busyAt(int i) { return i; }\nbool isBeyond(int i) { return false; }\n";
+  const std::string use = "busyWords[busyAt(int(gl_WorkGroupID.x))] = 1u; }";
+  expectOnly(shader("a.comp", head + "void main() { " + use), "rule 27");
+  EXPECT_THAT(shaderRules(shader("a.comp", head + "void main() { if (isBeyond(3)) return; " + use)),
+              IsEmpty());
+}
+
 TEST(ShaderRules, CountTextures) {
   std::string code;
   for (int i = 0; i < 16; ++i) code += "uniform sampler2D t" + std::to_string(i) + ";\n";
