@@ -27,11 +27,12 @@ constexpr unsigned kFormLabels = 4095;
 // the level of the field whose detail decides where a layer is painted
 constexpr std::size_t kDetailLevel = 1;
 
-// The commands that trace either list (shaders/stroke_lists.glsl), in bytes, and their words before
+// The commands that trace each list (shaders/stroke_lists.glsl), in bytes, and their words before
 // anything is listed.
-constexpr std::size_t kWithLabels = 0;
-constexpr std::size_t kMoversOnly = 16;
-constexpr std::array<std::uint32_t, 8> kEmptyLists{0, 1, 1, 0, 0, 1, 1, 0};
+constexpr std::size_t kOnModels = 0;
+constexpr std::size_t kWithLabels = 16;
+constexpr std::size_t kMoversOnly = 32;
+constexpr std::array<std::uint32_t, 12> kEmptyLists{0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0};
 
 /// A number near the golden section of n and coprime to it, so that neighbouring slots are far
 /// apart in the painting order.
@@ -66,7 +67,8 @@ struct StrokeSet::State {
   std::uint32_t slots;
   gpu::Program carry;
   gpu::Program list;
-  std::optional<gpu::Program> traceWithLabels;  // strokes that may meet models or segments
+  std::optional<gpu::Program> traceOnModels;
+  std::optional<gpu::Program> traceWithLabels;  // the background's that may meet labels
   std::optional<gpu::Program> traceMoversOnly;  // all others
   gpu::Program order;
   gpu::Program lay;
@@ -85,8 +87,8 @@ struct StrokeSet::State {
   glm::ivec2 allSlots() const { return {static_cast<int>(slots), 1}; }
   void carryWithObjects(const scene::ArFrame& frame, const AnchorSet& anchors,
                         const StrokeRule& rule);
-  /// Lists the strokes and traces them: those that cannot meet models or segments by a smaller
-  /// program, which knows nothing of these.
+  /// Lists the strokes and traces them, by three programs: no embedded GPU has registers for what
+  /// strokes on models, beside them and on movers ask in one.
   void grow(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
             const StrokePaint& paint, const StrokeRule& rule, const MotionLayers* layers,
             const gpu::Texture* borders, hal::Duration step);
@@ -151,14 +153,16 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
   const auto trace = [&](gpu::Program& program, std::size_t groups) {
     traceListed(program, groups, frame, anchors, field, paint, rule, layers, borders, step);
   };
+  if (frame.mayHaveObjects()) {
+    if (!traceOnModels) traceOnModels = library.compute(kTrace, {{"ON_MODELS"}});
+    trace(*traceOnModels, kOnModels);
+  }
   if (frame.mayHaveObjects() || borders != nullptr) {
     if (!traceWithLabels) traceWithLabels = library.compute(kTrace);
     trace(*traceWithLabels, kWithLabels);
   }
-  if (borders == nullptr) {
-    if (!traceMoversOnly) traceMoversOnly = library.compute(kTrace, {{"MOVERS_ONLY"}});
-    trace(*traceMoversOnly, kMoversOnly);
-  }
+  if (!traceMoversOnly) traceMoversOnly = library.compute(kTrace, {{"MOVERS_ONLY"}});
+  trace(*traceMoversOnly, kMoversOnly);
 }
 
 void StrokeSet::State::traceListed(gpu::Program& program, std::size_t groups,
@@ -233,10 +237,10 @@ void StrokeSet::State::traceListed(gpu::Program& program, std::size_t groups,
       .set("imageScale", static_cast<float>(anchors.imageScale()))
       .set("focalPx", frame.surfaces ? focalOf(*frame.surfaces, frame) : 0.0F)
       .set("layer", glm::vec2(rule.layer, rule.layers));
-  if (program.hasUniform("hasObjects")) {
-    program.set("hasLabels", borders != nullptr || frame.hasObjects ? 1 : 0)
-        .set("hasSegments", borders != nullptr ? 1 : 0)
-        .set("hasObjects", frame.hasObjects ? 1 : 0);
+  if (program.hasUniform("hasSegments")) program.set("hasSegments", borders != nullptr ? 1 : 0);
+  if (program.hasUniform("hasObjects")) program.set("hasObjects", frame.hasObjects ? 1 : 0);
+  if (program.hasUniform("hasLabels")) {
+    program.set("hasLabels", borders != nullptr || frame.hasObjects ? 1 : 0);
   }
   rule.focus.bind(program);
   program.dispatchListed(lists, groups, program.groupsFor({static_cast<int>(slots), 1}),

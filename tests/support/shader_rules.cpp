@@ -197,6 +197,8 @@ Violations headCommentRule(const ShaderText& shader) {
 Violations languageRule(const ShaderText& shader) {
   const std::string code = withoutComments(shader.expanded);
   Violations violations = forbid(code, "#\\s*version", "the shader library puts the version");
+  append(violations, forbid(code, "#\\s*(?:if|elif)\\b",
+                            "a program's inputs are found by #ifdef, #ifndef and #else alone"));
   append(violations,
          forbid(code,
                 "\\b(?:gl_PrimitiveID(?:In)?|EmitVertex|EndPrimitive|gl_TessCoord|gl_TessLevel\\w+|"

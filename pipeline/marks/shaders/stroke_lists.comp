@@ -20,14 +20,18 @@ uniform vec2 pixelsOfFull;
 uniform bool hasObjects;
 uniform bool hasSegments;
 
-shared uint aliveBefore[128];
-shared uint labelledBefore[128];
+shared uvec3 before[128];  // strokes of each list, in the order of the lists
 
-// Whether a stroke may meet labels of models or segments.
-bool meetsLabels(uint slot) {
-  bool isModel = isVirtual(objectOf(anchors[slot].surface));
+// The list of a stroke. Movers' know nothing of labels: what the camera sees goes on behind models.
+int listOf(uint slot) {
+  if (hasObjects && isVirtual(objectOf(anchors[slot].surface))) return kOnModels;
+  if ((anchors[slot].state & kMover) != 0u) return kMoversOnly;
   bool isNear = reachesObjects(anchors[slot].px, segment, objectBounds, pixelsOfFull);
-  return hasSegments || (hasObjects && (isModel || isNear));
+  return hasSegments || (hasObjects && isNear) ? kWithLabels : kMoversOnly;
+}
+
+uvec3 isList(int list) {
+  return uvec3(list == kOnModels, list == kWithLabels, list == kMoversOnly);
 }
 
 void writeLength(int list, uint length) {
@@ -40,37 +44,32 @@ void main() {
   uint each = (slots + 127u) / 128u;
   uint first = min(me * each, slots);
   uint end = min(first + each, slots);
-  uint alive = 0u;
-  uint labelled = 0u;
+  uvec3 mine = uvec3(0u);
   for (uint i = first; i < end; ++i) {
     bool isThere = isAlive(anchors[i].state);
     if (!isThere) strokes[i].seen = 0.0;
-    alive += isThere ? 1u : 0u;
-    labelled += isThere && meetsLabels(i) ? 1u : 0u;
+    if (isThere) mine += isList(listOf(i));
   }
-  aliveBefore[me] = alive;
-  labelledBefore[me] = labelled;
+  before[me] = mine;
   barrier();
   for (uint reach = 1u; reach < 128u; reach *= 2u) {
-    uint aliveThere = me >= reach ? aliveBefore[me - reach] : 0u;
-    uint labelledThere = me >= reach ? labelledBefore[me - reach] : 0u;
+    uvec3 there = me >= reach ? before[me - reach] : uvec3(0u);
     barrier();
-    aliveBefore[me] += aliveThere;
-    labelledBefore[me] += labelledThere;
+    before[me] += there;
     barrier();
   }
+  uvec3 all = before[127];
   if (me == 127u) {
-    writeLength(kWithLabels, labelledBefore[127]);
-    writeLength(kMoversOnly, aliveBefore[127] - labelledBefore[127]);
+    writeLength(kOnModels, all.x);
+    writeLength(kWithLabels, all.y);
+    writeLength(kMoversOnly, all.z);
   }
-  uint nextLabelled = labelledBefore[me] - labelled;
-  uint nextOther = aliveBefore[me] - alive - nextLabelled;
+  uvec3 next = before[me] - mine;
   for (uint i = first; i < end; ++i) {
     if (!isAlive(anchors[i].state)) continue;
-    if (meetsLabels(i)) {
-      lists[listedAt(kWithLabels, nextLabelled++, slots)] = i;
-    } else {
-      lists[listedAt(kMoversOnly, nextOther++, slots)] = i;
-    }
+    int list = listOf(i);
+    uvec3 one = isList(list);
+    lists[listedAt(list, next.x * one.x + next.y * one.y + next.z * one.z, all.x, slots)] = i;
+    next += one;
   }
 }

@@ -1,7 +1,8 @@
 // Purpose: what a stroke is painted on, and the direction, the colour and the detail that it finds
 //          there: those of its own patch, segment or layer.
-// Defines: MOVERS_ONLY: there are no segments, and no stroke of these reaches an object
-//          (stroke_lists.comp): ids, labels and depth are not read.
+// Defines: ON_MODELS: strokes on models; MOVERS_ONLY: strokes on movers, and those of the background
+//          that reach neither objects nor segments (stroke_lists.comp): ids, labels and depth are not
+//          read; neither: the background's that may reach them.
 // Inputs:  field: tensors to follow, detailField: tensors with the detail; modelField,
 //          modelDetailField, moverField: those of virtual objects and of movers, each with its
 //          scale, px of the full image to texture coordinates; mover_places.glsl's and
@@ -32,11 +33,24 @@ uniform highp sampler2D fineGround;
 uniform float paintTexel;
 uniform highp usampler2D labels;
 uniform uint labelMask;
+#ifdef ON_MODELS
+const bool isModel = true;  // what the stroke is on
+const bool hasObjects = true;
+const bool hasLabels = true;
+#else
+const bool isModel = false;
+#ifndef MOVERS_ONLY
+uniform bool hasObjects;
+uniform bool hasLabels;
+#endif
+#endif
 #ifdef MOVERS_ONLY
+const bool mayBeOnMover = true;
+const bool hasObjects = false;
 const bool hasLabels = false;
 const bool hasSegments = false;
 #else
-uniform bool hasLabels;
+const bool mayBeOnMover = false;
 uniform bool hasSegments;
 #endif
 uniform vec2 fullSize;
@@ -53,7 +67,6 @@ const vec2 kUpright = vec2(1.0, 0.0);  // a tensor: strokes of movers without an
 
 // What the stroke is painted on.
 struct Support {
-  bool isModel;
   uint label;
   bool isMixed;  // the reduced image mixes its colours with those of what is beside it
   bool isOnMover;
@@ -91,9 +104,9 @@ bool isMixedAt(vec2 px, uint label, bool hasOthers) {
   return false;
 }
 
-Support supportOf(bool isModel, uint label, bool isOnMover, vec2 px) {
+Support supportOf(uint label, bool isOnMover, vec2 px) {
   int mover = isOnMover ? moverOfLabel(label) : 1;
-  Support on = Support(isModel, label, false, isOnMover, mover, 0.0, kUpright);
+  Support on = Support(label, false, isOnMover, mover, 0.0, kUpright);
   bool hasOthers = isModel || (hasSegments && !isOnMover && label != 0u);
   on.isMixed = isOnMover ? clips && isNearAnother(px, mover, 2.0 * paintTexel)
                          : isMixedAt(px, label, clips && hasOthers);
@@ -107,7 +120,7 @@ Support supportOf(bool isModel, uint label, bool isOnMover, vec2 px) {
 
 vec2 directionAt(vec2 px, Support on) {
   vec2 tensor;
-  if (on.isModel) {
+  if (isModel) {
     tensor = textureLod(modelField, px * fieldScale, 0.0).xy;
   } else if (on.isOnMover) {
     tensor = textureLod(moverField, px * moverScale, 0.0).xy;
@@ -150,13 +163,13 @@ vec3 colourAt(vec2 px, Support on) {
     float own = ownShareAt(there, on);
     if (own <= 0.0) continue;
     there /= fullSize;
-    seen += own * (on.isModel     ? textureLod(finePaint, there, 0.0)
+    seen += own * (isModel     ? textureLod(finePaint, there, 0.0)
                    : on.isOnMover ? textureLod(moverPaint, there, 0.0)
                                   : textureLod(fineGround, there, 0.0));
   }
   vec2 at = px / fullSize;
   bool hasNone = seen.a <= 0.0;
-  if (on.isModel) {
+  if (isModel) {
     if (hasNone) seen = textureLod(modelPaint, at, 0.0);
   } else {
     vec4 mover = textureLod(moverPaint, at, 0.0);
@@ -169,7 +182,7 @@ vec3 colourAt(vec2 px, Support on) {
 
 float detailAt(vec2 px, Support on) {
   const float kLooseDetail = 0.6;
-  if (on.isModel) {
+  if (isModel) {
     return modelDetail * textureLod(modelDetailField, px * detailScale, 0.0).w;
   }
   float detail = on.isOnMover ? textureLod(moverField, px * moverScale, 0.0).w

@@ -3,7 +3,7 @@
 //          constants (§5.4), so that a stroke lives as long as its anchor.
 //          A stroke stays on what it lies on: it ends where its label does (stroke_label.glsl), or
 //          its depth makes a step.
-// Defines: stroke_support.glsl's.
+// Defines: stroke_support.glsl's; ON_MODELS: strokes on models (stroke_lists.glsl).
 // Inputs:  anchors, slots of them; StrokeLists: those that are traced (stroke_lists.glsl);
 //          stroke_walk.glsl's; background (marks::MotionLayers); ids (ArFrame) if
 //          hasObjects; depthRange: the near and the far plane in metres, 0: no depth; focalPx: of
@@ -43,11 +43,7 @@ uniform float imageScale;
 uniform float focalPx;
 uniform vec2 layer;
 
-#ifdef MOVERS_ONLY
-const int kList = kMoversOnly;
-#else
-const int kList = kWithLabels;
-#endif
+const int kList = isModel ? kOnModels : mayBeOnMover ? kMoversOnly : kWithLabels;
 const float kFocusDetail = 1.0;  // how much more detail counts in a focus
 
 // The label of the anchor's triangle: that of its pixel, or of the one beside it that shows the
@@ -164,7 +160,7 @@ float partOf(uint rank, float octaves) {
 }
 
 // Octaves of scale, as ranks have them, of a place.
-float scaleAt(vec2 px, bool isModel) {
+float scaleAt(vec2 px) {
   if (!isModel || depthRange.y <= 0.0 || focalPx <= 0.0) return imageScale;
   return log2(focalPx / max(metresOf(depthAt(px)), 1e-3));
 }
@@ -181,10 +177,10 @@ bool isAmong(float share, float part, bool was) {
 // A stroke that something is before or beside stays, or fades out, unchanged, unless it is of a
 // colour that is not there. Whether it begins anew.
 bool beginsAnew(uint slot, uint state, vec2 px, bool isBeside, bool hasJoined, bool isLeft) {
-  bool isOnMover = (state & kMover) != 0u;
+  bool isOnMover = mayBeOnMover && (state & kMover) != 0u;
   bool isBehind = (state & kCovered) != 0u;
   vec4 behind = textureLod(background, inLayers(background, px), 0.0);
-  bool isReal = !isVirtual(objectOf(anchors[slot].surface));
+  bool isReal = !isModel && !isVirtual(objectOf(anchors[slot].surface));
   bool isStale = isReal && !isOnMover && behind.a >= 1.0 &&
                  apart(strokes[slot].colour, behind.rgb) > otherColour.y;
   bool isUnder = isBehind && isPatch(labelAt(px));
@@ -207,7 +203,7 @@ bool beginsAnew(uint slot, uint state, vec2 px, bool isBeside, bool hasJoined, b
 }
 
 // Whether the layer is painted at a place. `seen`: the detail there.
-bool isWanted(uint slot, vec2 px, float seen, bool isResting, bool isModel, bool isNew) {
+bool isWanted(uint slot, vec2 px, float seen, bool isResting, bool isNew) {
   float hash = unitOf(hashOf(anchors[slot].seed ^ 0x51u));
   // A stroke is wanted where the detail lies in its band; an existing one stays a little longer.
   float focused = focusStrength * focusAt(px);
@@ -216,7 +212,7 @@ bool isWanted(uint slot, vec2 px, float seen, bool isResting, bool isModel, bool
   float wider = was ? 1.0 - (isResting ? restSlack : slack) : isResting ? 1.0 + 0.5 * restSlack : 1.0;
   bool wanted = detail >= detailBand.x * wider && detail <= detailBand.y / wider;
   if (focusStrength > 0.0) {
-    float part = partOf(rankOf(anchors[slot].ageAndRank), scaleAt(px, isModel));
+    float part = partOf(rankOf(anchors[slot].ageAndRank), scaleAt(px));
     // Patches of models are often smaller than broad strokes: only the finest layer thins out there.
     float least = isModel && layer.y > 2.0 ? (layer.y - 2.0) / (layer.y - 1.0) : 0.0;
     float fineness = max(finenessAt(px), least);
@@ -231,12 +227,11 @@ bool isWanted(uint slot, vec2 px, float seen, bool isResting, bool isModel, bool
 // What is read again, of anchors and strokes, is not kept in registers through the walk.
 void main() {
   if (gl_GlobalInvocationID.x >= lists[kList + 3]) return;
-  uint slot = lists[listedAt(kList, gl_GlobalInvocationID.x, slots)];
+  uint slot = lists[listedAt(kList, gl_GlobalInvocationID.x, lists[kOnModels + 3], slots)];
   uint state = anchors[slot].state;
   vec2 px = anchors[slot].px;
-  bool isModel = hasObjects && isVirtual(objectOf(anchors[slot].surface));
   bool isNew = anew || (state & kBorn) != 0u;
-  bool isOnMover = (state & kMover) != 0u;
+  bool isOnMover = mayBeOnMover && (state & kMover) != 0u;
   bool isBehind = (state & kCovered) != 0u;
   // A mover has left it behind. It would be drawn over the mover as long as it kept its label.
   bool isLeft = !isOnMover && isMoverLabel(labelOfStroke(strokes[slot].state));
@@ -257,7 +252,7 @@ void main() {
   uint seed = anchors[slot].seed;
   float stray = wander * (unitOf(hashOf(seed ^ 0x77u)) + unitOf(hashOf(seed ^ 0x78u)) - 1.0);
   vec2 hand = vec2(cos(stray), sin(stray));
-  Support on = supportOf(isModel, label, isOnMover, px);
+  Support on = supportOf(label, isOnMover, px);
   vec3 own = colourAt(px, on);
   float seen = detailAt(px, on);
   vec2 heading = directionAt(px, on);
@@ -282,7 +277,7 @@ void main() {
   own = walks[gl_LocalInvocationIndex].colour;
   Arm ahead = walked[gl_LocalInvocationIndex];
   Arm behind = walked[kWalkers + int(gl_LocalInvocationIndex)];
-  if (!bothWays) behind = Arm(vec3(0.0), 0.0, 0.0);
+  if (!bothWays) behind = Arm(vec3(0.0), 0.0, 0.0, 0.0);
   vec2 lengths = vec2(ahead.length, behind.length);
   float weight = ownWeight(layer.y - 1.0 - layer.x);
   vec3 colour = (weight * own + ahead.colour + behind.colour) /
@@ -290,7 +285,7 @@ void main() {
 
   // Before a standing camera, nothing but its content changes a stroke of the background.
   bool isResting = isStanding && !isNew && !isOnMover && !isModel;
-  bool wanted = isWanted(slot, px, seen, isResting, isModel, isNew);
+  bool wanted = isWanted(slot, px, seen, isResting, isNew);
   float goal = wanted ? 1.0 : 0.0;
   // The past ends where the stroke stands on clearly other content.
   float restless = isResting ? 0.0 : smoothstep(flatDetail.x, flatDetail.y, seen);

@@ -13,11 +13,6 @@
 #include "pipeline/marks/shaders/stroke_support.glsl"
 #include "pipeline/scene/render/shaders/depth_step.glsl"
 uniform highp sampler2D depth;
-#ifdef MOVERS_ONLY
-const bool hasObjects = false;
-#else
-uniform bool hasObjects;
-#endif
 uniform vec4 objectBounds;
 uniform float segment;       // px
 uniform float steps;         // at most kArm
@@ -29,44 +24,66 @@ uniform ivec2 arms;
 
 float depthAt(vec2 px) { return texelFetch(depth, pixelAt(px), 0).r; }
 
-// The part of a segment that lies on its patch, in [0, 1]; a step of a pixel at a time; segments of
-// the image are never as narrow as patches. Where trunk and limb meet on a smooth surface, it may go
-// on for kOverJoint; `strayed`: the px so far, of the whole arm.
-float partOnPatch(vec2 from, vec2 to, Support on, inout float strayed) {
-  float stride = hasObjects ? 1.0 : 3.0;
-  float count = max(1.0, ceil(distance(from, to) * max(pixelsOfFull.x, pixelsOfFull.y) / stride));
-  vec2 pace = (to - from) / count;
-  uint label = on.isOnMover ? 0u : on.label;  // models alone have labels in the image
-  if (!on.isModel && !hasSegments) return 1.0;
-  bool isDeep = on.isModel && depthRange.y > 0.0;
-  float before = isDeep ? depthAt(from - pace) : 0.0;
-  float here = isDeep ? depthAt(from) : 0.0;
-  uint last = labelsAt(from);
+// Pixels from one look at labels to the next; segments of the image are never as narrow as patches.
+const float kStride = isModel ? 1.0 : 3.0;
+
+// How many looks a step of the walk takes, and how far it is from one to the next.
+float looksOfStep() {
+  return max(1.0, ceil(segment * max(pixelsOfFull.x, pixelsOfFull.y) / kStride));
+}
+float pace() { return segment / looksOfStep(); }
+
+// The place of a look, of a step of the walk that ends at `to`.
+vec2 placeOf(float look, vec2 to, vec2 heading) {
+  return to - (looksOfStep() - look) * pace() * heading;
+}
+
+// The look, from 1 on, at which a step leaves its patch, or one more than there are; where trunk and
+// limb meet on a smooth surface, it may go on for kOverJoint. `strayed`: the px so far, of the whole
+// arm.
+float leavesPatchAt(vec2 to, vec2 heading, Support on, inout float strayed) {
+  uint last = labelsAt(placeOf(0.0, to, heading));
   float i = 1.0;
-  bool isStep = false;
-  for (; i <= count; i += 1.0) {
-    vec2 at = from + i * pace;
-    uint texel = labelsAt(at);
-    bool isUnder = !on.isModel && isPatch(labelOfSurface(texel));
-    if (!isUnder && !mayCover(label, labelOfSurface(texel))) {
+  for (; i <= looksOfStep(); i += 1.0) {
+    uint texel = labelsAt(placeOf(i, to, heading));
+    bool isUnder = !isModel && isPatch(labelOfSurface(texel));
+    if (!isUnder && !mayCover(on.label, labelOfSurface(texel))) {
       bool isSame = labelOfSurface(texel) == labelOfSurface(last);
-      bool goesOn = isDeep && (isSame || isOverJoint(last, texel));
-      strayed += length(pace);
+      bool goesOn = isModel && depthRange.y > 0.0 && (isSame || isOverJoint(last, texel));
+      strayed += pace();
       if (!goesOn || strayed > kOverJoint) break;
     }
     last = texel;
-    if (!isDeep) continue;
-    float next = depthAt(at);
-    isStep = isDepthStep(before - 2.0 * here + next, here);
-    if (isStep) break;
+  }
+  return i;
+}
+
+// The look before `end` at which the depth makes a step, or `end`.
+float leavesDepthAt(vec2 to, vec2 heading, float end) {
+  float before = depthAt(placeOf(-1.0, to, heading));
+  float here = depthAt(placeOf(0.0, to, heading));
+  float i = 1.0;
+  for (; i < end; i += 1.0) {
+    float next = depthAt(placeOf(i, to, heading));
+    if (isDepthStep(before - 2.0 * here + next, here)) break;
     before = here;
     here = next;
   }
-  if (i > count) return 1.0;
-  if (isStep) return max(0.0, (i - 1.5) / count);
-  vec2 at = from + i * pace;
-  bool isEarly = stride > 1.0 && !mayCover(label, labelAt(at - 0.5 * pace));
-  return max(0.0, (i - (isEarly ? 0.75 : stride > 1.0 ? 0.25 : 0.5)) / count);
+  return i;
+}
+
+// The part of a step of the walk that lies on its patch, in [0, 1].
+float partOnPatch(vec2 to, vec2 heading, Support on, inout float strayed) {
+  if (!isModel && !hasSegments) return 1.0;
+  float end = leavesPatchAt(to, heading, on, strayed);
+  if (isModel && depthRange.y > 0.0) {
+    float i = leavesDepthAt(to, heading, end);
+    if (i < end) return max(0.0, (i - 1.5) / looksOfStep());
+  }
+  if (end > looksOfStep()) return 1.0;
+  if (isModel) return max(0.0, (end - 0.5) / looksOfStep());
+  bool isEarly = !mayCover(on.label, labelAt(placeOf(end - 0.5, to, heading)));
+  return max(0.0, (end - (isEarly ? 0.75 : 0.25)) / looksOfStep());
 }
 
 // The anchor's place counts more than the rest of a fine stroke, or small lights would vanish. Coarser
@@ -78,6 +95,7 @@ struct Arm {
   vec3 colour;  // sum over its visible part
   float weight;
   float length;
+  float difference;  // of the last step's colour
 };
 
 // What a walk starts from: the colour and the detail at the anchor, the direction there, and by how
@@ -109,15 +127,14 @@ void endArm(int number, float length) { walked[number].length = min(steps, lengt
 
 // Walks an arm, ahead or behind, and stores it. Behind its end, only its directions go on.
 void walk(int side, vec2 from, Support on) {
-  bool mayLeave = clips && reachesLabels(from);
+  bool mayLeave = clips && (isModel || reachesLabels(from));
   // The camera image goes on behind a model: strokes do, too, and are clipped where it is drawn. They
   // do not go far: nothing is known of what is there.
-  bool goesBehind = mayLeave && !on.isModel;
+  bool goesBehind = mayLeave && !isModel;
   float left = kBehind * fullSize.x;
   int number = side * kWalkers + int(gl_LocalInvocationIndex);
-  walked[number] = Arm(vec3(0.0), 0.0, steps);
+  walked[number] = Arm(vec3(0.0), 0.0, steps, 0.0);
   bool goesOn = true;
-  float before = 0.0;
   vec2 at = from;
   vec2 heading = walks[gl_LocalInvocationIndex].heading;
   if (side != 0) heading = -heading;
@@ -131,7 +148,6 @@ void walk(int side, vec2 from, Support on) {
     if (along < 0.0) direction = -direction;
     heading = direction;
     ways[wayAt(side * kArm + i)] = heading;
-    vec2 start = at;
     at += segment * heading;
     if (!goesOn) continue;
     goesOn = false;
@@ -141,7 +157,7 @@ void walk(int side, vec2 from, Support on) {
     }
     if (mayLeave) {
       // An arm ends where another surface begins.
-      float part = partOnPatch(start, at, on, strayed);
+      float part = partOnPatch(at, heading, on, strayed);
       if (part < 1.0) {
         endArm(number, float(i) + part);
         continue;
@@ -168,12 +184,13 @@ void walk(int side, vec2 from, Support on) {
     vec3 there = colourAt(at, on);
     float difference = apart(there, own);
     if (difference > colourThreshold) {
+      float before = walked[number].difference;
       float part = clamp((colourThreshold - before) / max(difference - before, 1e-4), 0.0, 1.0);
       endArm(number, max(float(i) + part, minSteps));
       continue;
     }
     goesOn = true;
-    before = difference;
+    walked[number].difference = difference;
     if (float(i) >= steps) continue;
     float weight = 1.0 - 0.7 * difference / colourThreshold;
     walked[number].colour += weight * there;

@@ -157,6 +157,13 @@ TEST(ShaderRules, RefuseVersionsAndStagesThatAreNotEverywhere) {
   expectOnly(shader("a.geom", "void main() {}"), "no such stage");
 }
 
+TEST(ShaderRules, RefuseConditionsThatInputsAreNotFoundBy) {
+  const std::string code = "\nuniform bool a;\n#endif\n";
+  EXPECT_THAT(shaderRules(shader("a.frag", "#ifdef A" + code)), IsEmpty());
+  expectOnly(shader("a.frag", "#if defined(A)" + code), "#ifdef");
+  expectOnly(shader("a.frag", "#ifdef A\n#elif defined(B)" + code), "#ifdef");
+}
+
 TEST(ShaderRules, RefuseStorageInGraphicsStages) {
   const std::string block = "layout(std430, binding = 0) readonly buffer Seeds { vec2 seeds[]; };";
   expectOnly(shader("a.vert", block), "rules 2 and 3");
