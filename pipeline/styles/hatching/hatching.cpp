@@ -292,7 +292,7 @@ void Hatching::State::drawLines(const scene::ArFrame& frame, const HatchingParam
         .set("scale", static_cast<float>(frame.pixelsOfFull().x))
         .set("fullSize", glm::vec2(frame.full().width, frame.full().height));
     if (isClipped) program.texture("borders", canvas->borders);
-    strips.draw(program, set->strips(), false, canvas->inkTarget);
+    strips.draw(program, set->strips(), StripPart::kPlain, canvas->inkTarget);
   }
 }
 

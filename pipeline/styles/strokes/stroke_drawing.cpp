@@ -72,18 +72,28 @@ void drawOver(const gpu::Program& program, const gpu::RenderTarget& target,
 
 StripDrawing::StripDrawing() : layout_(stripLayout()) {}
 
-void StripDrawing::draw(const gpu::Program& program, const StrokeStrips& strips, bool clipped,
+void StripDrawing::draw(const gpu::Program& program, const StrokeStrips& strips, StripPart part,
                         const gpu::RenderTarget& target) const {
   drawOver(program, target, layout_, strips.vertices, StrokeStrips::kVertexBytes, strips.commands,
-           clipped ? 1 : 0);
+           static_cast<std::size_t>(part));
+}
+
+StrokeDrawing::Paint StrokeDrawing::paintOf(const gpu::ShaderLibrary& library,
+                                            const gpu::ShaderDefines& defines) {
+  const auto with = [&](std::initializer_list<const char*> more) {
+    gpu::ShaderDefines all = defines;
+    for (const char* each : more) all.push_back({each});
+    return paintProgram(library, all);
+  };
+  return {.plain = with({}),
+          .clipped = with({"CLIPPED"}),
+          .carried = with({"CARRIED"}),
+          .carriedClipped = with({"CLIPPED", "CARRIED"})};
 }
 
 StrokeDrawing::StrokeDrawing(const gpu::ShaderLibrary& library,
                              std::span<const DebugViewInfo> views)
-    : paint_{{{paintProgram(library, {}), paintProgram(library, {{"CLIPPED"}})},
-              {paintProgram(library, {{"BUMPED"}}),
-               paintProgram(library, {{"BUMPED"}, {"CLIPPED"}})}}},
-      instances_(instanceLayout()) {
+    : library_(library), paint_(paintOf(library, {})), instances_(instanceLayout()) {
   if (views.empty()) return;
   view_ = library.draw(kShaders + "stroke_view.vert", kShaders + "stroke_view.frag",
                        viewDefines(views));
@@ -92,28 +102,37 @@ StrokeDrawing::StrokeDrawing(const gpu::ShaderLibrary& library,
 void StrokeDrawing::draw(const StrokeStrips& strips, const gpu::Texture& brush,
                          const StrokeLight& light, const StrokeClip& clip, hal::FrameSize full,
                          const gpu::RenderTarget& target) {
-  // One of them draws nothing.
+  if (light.each && !litPaint_) litPaint_ = paintOf(library_, {{"BUMPED"}});
+  // One of these two draws nothing.
   if (clip.borders == nullptr || clip.onlyMovers) {
-    drawSome(false, strips, brush, light, clip, full, target);
+    drawPart(StripPart::kPlain, strips, brush, light, clip, full, target);
   }
-  if (clip.borders != nullptr) drawSome(true, strips, brush, light, clip, full, target);
+  if (clip.borders != nullptr) {
+    drawPart(StripPart::kClipped, strips, brush, light, clip, full, target);
+  }
+  drawPart(StripPart::kCarried, strips, brush, light, clip, full, target);
 }
 
-void StrokeDrawing::drawSome(bool clipped, const StrokeStrips& strips, const gpu::Texture& brush,
+void StrokeDrawing::drawPart(StripPart part, const StrokeStrips& strips, const gpu::Texture& brush,
                              const StrokeLight& light, const StrokeClip& clip, hal::FrameSize full,
                              const gpu::RenderTarget& target) {
-  gpu::Program& program = paint_[light.each ? 1 : 0][clipped ? 1 : 0];
+  Paint& paint = light.each ? *litPaint_ : paint_;
+  const bool isCarried = part == StripPart::kCarried;
+  const bool isClipped = part == StripPart::kClipped || (isCarried && clip.borders != nullptr);
+  gpu::Program& program = isCarried   ? (isClipped ? paint.carriedClipped : paint.carried)
+                          : isClipped ? paint.clipped
+                                      : paint.plain;
   const hal::FrameSize size = target.size();
   program.use().texture("brushes", brush).set("fullSize", glm::vec2(full.width, full.height));
   if (light.each) program.set("relief", light.relief).set("gloss", light.gloss);
-  if (clipped) {
-    program.texture("borders", *clip.borders)
-        .texture("picture", clip.picture != nullptr ? *clip.picture : brush)
+  if (isClipped) program.texture("borders", *clip.borders);
+  if (isClipped && isCarried) {
+    program.texture("picture", clip.picture != nullptr ? *clip.picture : brush)
         .set("colourClip", clip.picture != nullptr ? clip.colour : 0.0F)
         .set("byLuma", clip.byLuma ? 1 : 0)
         .set("targetSize", glm::vec2(size.width, size.height));
   }
-  strips_.draw(program, strips, clipped, target);
+  strips_.draw(program, strips, part, target);
 }
 
 void StrokeDrawing::show(const marks::StrokeSet& strokes, int quads, std::size_t view,

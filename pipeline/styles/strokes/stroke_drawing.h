@@ -39,9 +39,8 @@ struct StrokeClip {
 class StripDrawing {
  public:
   StripDrawing();
-  /// Draws those that are clipped, or those that are not. Precondition: `program` is in use and
-  /// filled.
-  void draw(const gpu::Program& program, const StrokeStrips& strips, bool clipped,
+  /// Precondition: `program` is in use and filled.
+  void draw(const gpu::Program& program, const StrokeStrips& strips, StripPart part,
             const gpu::RenderTarget& target) const;
 
  private:
@@ -52,8 +51,9 @@ class StripDrawing {
 /// height together. All calls on the thread of the GL context it was made in.
 class StrokeDrawing {
  public:
-  /// `library` has gpu::strokesShaders() and gpu::marksShaders(). `views` are the style's; show()
-  /// shows those named layers, skeletons and anchors, without which show() must not be called.
+  /// `library`, which outlives this, has gpu::strokesShaders() and gpu::marksShaders(). `views` are
+  /// the style's; show() shows those named layers, skeletons and anchors, without which show() must
+  /// not be called.
   explicit StrokeDrawing(const gpu::ShaderLibrary& library,
                          std::span<const DebugViewInfo> views = {});
 
@@ -70,11 +70,18 @@ class StrokeDrawing {
             hal::FrameSize full, const gpu::RenderTarget& target);
 
  private:
-  void drawSome(bool clipped, const StrokeStrips& strips, const gpu::Texture& brush,
+  /// The programs of a kind of light.
+  struct Paint {
+    gpu::Program plain, clipped, carried, carriedClipped;
+  };
+  static Paint paintOf(const gpu::ShaderLibrary& library, const gpu::ShaderDefines& defines);
+  void drawPart(StripPart part, const StrokeStrips& strips, const gpu::Texture& brush,
                 const StrokeLight& light, const StrokeClip& clip, hal::FrameSize full,
                 const gpu::RenderTarget& target);
 
-  std::array<std::array<gpu::Program, 2>, 2> paint_;  // each in the light? clipped?
+  const gpu::ShaderLibrary& library_;
+  Paint paint_;
+  std::optional<Paint> litPaint_;  // each stroke by itself; made when first asked for
   std::optional<gpu::Program> view_;
   StripDrawing strips_;
   gpu::VertexArrayHandle instances_;

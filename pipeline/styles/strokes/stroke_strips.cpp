@@ -54,22 +54,19 @@ void StrokeStripMaker::lay(const gpu::Buffer& instances, const gpu::Buffer& draw
   if (!strips.vertices || strips.quads != quads) {
     const std::size_t each = verticesOf(isEven ? even : curvatureQuads(form_));
     strips.plans = gpu::Buffer(slots * kPlanBytes, gpu::BufferUsage::kDynamic);
-    strips.commands = gpu::Buffer(2 * gpu::kDrawCommandBytes, gpu::BufferUsage::kDynamic);
+    strips.commands = gpu::Buffer(kStripParts * gpu::kDrawCommandBytes, gpu::BufferUsage::kDynamic);
     strips.vertices = {};
     strips.vertices =
         gpu::Buffer(slots * each * StrokeStrips::kVertexBytes, gpu::BufferUsage::kDynamic);
     strips.quads = quads;
   }
-  if (!isEven) {
-    bend_.use()
-        .storage("Instances", instances)
-        .storage("Drawn", drawn)
-        .storage("Plans", strips.plans)
-        .set("bend", form_ == StrokeForm::kLong ? kLongBendPx : kBendPx)
-        .dispatch(all, GL_SHADER_STORAGE_BARRIER_BIT);
-  }
-  // Strokes of even quads are not asked whether they are carried.
-  const bool byMovers = clipping.onlyMovers && !isEven;
+  bend_.use()
+      .storage("Instances", instances)
+      .storage("Drawn", drawn)
+      .storage("Plans", strips.plans)
+      .set("bend", form_ == StrokeForm::kLong ? kLongBendPx : kBendPx)
+      .dispatch(all, GL_SHADER_STORAGE_BARRIER_BIT);
+  const bool byMovers = clipping.onlyMovers.has_value();
   offsets_.use()
       .storage("Drawn", drawn)
       .storage("Plans", strips.plans)

@@ -28,14 +28,18 @@ constexpr std::size_t instanceBytesOf(StrokeForm form) {
   return form == StrokeForm::kLong ? 224 : marks::StrokeSet::kInstanceBytes;
 }
 
-/// The vertices of a layer's strokes, all one strip, in the order of painting.
+/// Strokes that are drawn by one program: of those that do not lie on models or movers either the
+/// first two parts have all, and the other none.
+enum class StripPart { kPlain, kClipped, kCarried };
+inline constexpr std::size_t kStripParts = 3;
+
+/// The vertices of a layer's strokes, all one strip, in the order of painting, carried strokes
+/// last.
 struct StrokeStrips {
   StrokeQuads quads = StrokeQuads::kCurvature;  ///< that there is room for
   gpu::Buffer plans;
   gpu::Buffer vertices;
-  /// glDrawArraysIndirect's, two: of strokes that are not clipped, and of those that are. All are
-  /// the one or the other.
-  gpu::Buffer commands;
+  gpu::Buffer commands;  ///< glDrawArraysIndirect's, one for each StripPart
 
   static constexpr std::size_t kVertexBytes = 32;  ///< shaders/stroke_strips.comp
 };

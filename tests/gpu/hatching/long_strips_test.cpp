@@ -56,7 +56,7 @@ class LongStrips : public HatchingTest {
         .set("grain", 0.0F)
         .set("scale", 1.0F)
         .set("fullSize", glm::vec2(kPage.width, kPage.height));
-    StripDrawing().draw(program, strips, false, target);
+    StripDrawing().draw(program, strips, StripPart::kPlain, target);
     const std::vector<std::uint8_t> bytes = bytesOf(ink);
     std::vector<std::uint8_t> alphas;
     for (std::size_t i = 3; i < bytes.size(); i += 4) alphas.push_back(bytes[i]);

@@ -82,11 +82,15 @@ class StripTest : public support::GlTest {
   std::vector<StripVertex> vertices() const {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     auto all = support::readBuffer<StripVertex>(strips_.vertices);
-    const auto command = support::readBuffer<std::uint32_t>(strips_.commands);
-    EXPECT_EQ(command[1], 1U);
-    EXPECT_EQ(command[2], 0U);
-    EXPECT_LE(command[0], all.size());
-    all.resize(command[0]);
+    const auto commands = support::readBuffer<std::uint32_t>(strips_.commands);
+    std::size_t count = 0;
+    for (std::size_t part = 0; part < kStripParts; ++part) {
+      EXPECT_EQ(commands[4 * part + 1], 1U);
+      EXPECT_EQ(commands[4 * part + 2], part == 2 ? count : 0U);
+      count += commands[4 * part];
+    }
+    EXPECT_LE(count, all.size());
+    all.resize(count);
     return all;
   }
 

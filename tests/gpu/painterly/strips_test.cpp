@@ -198,16 +198,16 @@ TEST_F(StripsTest, BrushesVariantsAndObjectsAreTold) {
     EXPECT_NEAR(4.0 * all[i + 6].brush[1] / 65535.0, 5.0 - row, 1e-3) << "the other way round";
   }
   const float drawn = drawnHalfWidth(plain) / plain.halfWidth;
-  const float ofMover = drawn + 4.0F;  // its bristles are soft
-  EXPECT_NEAR(glm::unpackHalf1x16(all[0].shape[1]), ofMover, 2e-3);
-  EXPECT_NEAR(glm::unpackHalf1x16(all[6].shape[1]), -ofMover, 2e-3);
-  plain.label = 4096.0F;
-  EXPECT_NEAR(glm::unpackHalf1x16(only(plain)[0].shape[1]), drawn, 2e-3);
+  EXPECT_NEAR(glm::unpackHalf1x16(all[0].shape[1]), drawn, 2e-3);
+  EXPECT_NEAR(glm::unpackHalf1x16(all[6].shape[1]), -drawn, 2e-3);
 }
 
-/// Which of the two commands draws two strokes, one of this label, with so many busy blocks.
+/// Which command draws a stroke beside one of this label, which the third has if it is carried.
 class StripClippingTest : public StripTest {
  protected:
+  static constexpr float kMover = 4093.0F;  // shaders/stroke_label.glsl
+  static constexpr float kSegment = 4096.0F;
+
   enum class Drawn { kPlain, kClipped, kWrong };
   Drawn drawnWith(const StripClipping& clipping, float label = 0.0F,
                   StrokeQuads quads = StrokeQuads::kCurvature) {
@@ -216,8 +216,10 @@ class StripClippingTest : public StripTest {
     lay({straightStroke({10.0F, 10.0F}, {60.0F, 10.0F}), other}, quads, clipping);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     const auto commands = support::readBuffer<std::uint32_t>(strips_.commands);
-    if (commands[0] > 8 && commands[4] == 0) return Drawn::kPlain;
-    if (commands[4] > 8 && commands[0] == 0) return Drawn::kClipped;
+    const bool isCarried = label != 0.0F && label < kSegment;
+    EXPECT_EQ(commands[8] > 0, isCarried);
+    if (commands[0] > 0 && commands[4] == 0) return Drawn::kPlain;
+    if (commands[4] > 0 && commands[0] == 0) return Drawn::kClipped;
     return Drawn::kWrong;
   }
   /// `blocks`: how many are busy.
@@ -239,13 +241,30 @@ TEST_F(StripClippingTest, IsPlainWhereThereIsNothingToClipBy) {
 }
 
 TEST_F(StripClippingTest, ClipsWhatAMoverLeavesBehind) {
-  constexpr float kMover = 4093.0F;  // shaders/stroke_label.glsl
-  constexpr float kSegment = 4096.0F;
   EXPECT_EQ(drawnWith(byMovers(0), kMover), Drawn::kClipped);
   EXPECT_EQ(drawnWith(byMovers(0), 17.0F), Drawn::kClipped) << "a patch's";
   EXPECT_EQ(drawnWith(byMovers(0), kSegment), Drawn::kPlain);
-  // These have no plan that would tell.
-  EXPECT_EQ(drawnWith(byMovers(0), 0.0F, StrokeQuads::kThesis), Drawn::kClipped);
+  EXPECT_EQ(drawnWith(byMovers(0), kMover, StrokeQuads::kThesis), Drawn::kClipped);
+  EXPECT_EQ(drawnWith(byMovers(0), 0.0F, StrokeQuads::kThesis), Drawn::kPlain);
+}
+
+TEST_F(StripClippingTest, CarriedStrokesComeLast) {
+  LaidStroke carried = arc({20.0F, 20.0F}, 60.0F, 1.5F);
+  LaidStroke other = straightStroke({10.0F, 30.0F}, {60.0F, 30.0F});
+  lay({carried, other, carried});
+  const std::vector<StripVertex> inOrder = vertices();
+  carried.label = kMover;
+  lay({carried, other, carried}, StrokeQuads::kCurvature, {.clips = true});
+  const std::vector<StripVertex> apart = vertices();
+  const auto commands = support::readBuffer<std::uint32_t>(strips_.commands);
+  ASSERT_EQ(apart.size(), inOrder.size());
+  const std::size_t others = commands[4];
+  const std::size_t each = commands[8] / 2;
+  for (std::size_t i = 0; i < others; ++i) EXPECT_EQ(apart[i].at, inOrder[each + i].at);
+  for (std::size_t i = 0; i < each; ++i) {
+    EXPECT_EQ(apart[others + i].at, inOrder[i].at);
+    EXPECT_EQ(apart[others + each + i].at, inOrder[each + others + i].at);
+  }
 }
 
 TEST_F(StripClippingTest, ChangesNoVertex) {
@@ -253,10 +272,10 @@ TEST_F(StripClippingTest, ChangesNoVertex) {
   lay(strokes);
   const std::vector<StripVertex> plain = vertices();
   std::vector<LaidStroke> carried = strokes;
-  carried[0].label = 4093.0F;
+  carried[0].label = kMover;
   lay(carried, StrokeQuads::kCurvature, {.clips = true});
   const auto commands = support::readBuffer<std::uint32_t>(strips_.commands);
-  EXPECT_EQ(commands[4], plain.size());
+  EXPECT_EQ(commands[8], plain.size());
   const auto clipped = support::readBuffer<StripVertex>(strips_.vertices);
   for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_EQ(clipped[i].at, plain[i].at);
 }

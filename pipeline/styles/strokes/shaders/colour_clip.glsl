@@ -19,9 +19,9 @@ const vec2 kClear = vec2(0.04, 0.22);
 // that small differences say nothing. A label that reaches beyond its mover has the ground's colour alone.
 const vec2 kClearAtBorder = vec2(0.3, 0.5);
 
-float shareOfColour(vec3 rgb, bool isCarried, bool isAtBorder) {
+float shareOfColour(vec3 rgb, bool isAtBorder) {
   float share = 1.0;
-  if (isCarried && colourClip > 0.0) {
+  if (colourClip > 0.0) {
     vec3 seen = texture(picture, gl_FragCoord.xy / targetSize).rgb;
     vec3 other = byLuma ? vec3(lumaOf(rgb - seen)) : rgb - seen;
     vec2 clear = isAtBorder ? kClearAtBorder : kClear;

@@ -1,16 +1,19 @@
 // Purpose: the paint of a brush mark and its thickness.
-// Defines: BUMPED: each stroke is lit by itself. CLIPPED: for a frame with models: no paint beyond
-//          the border of what it lies on.
-// Inputs, outputs: stroke_mark.glsl's; BUMPED: stroke_bump.glsl's; CLIPPED: colour_clip.glsl's and
-//          stroke_clip.glsl's.
+// Defines: BUMPED: each stroke is lit by itself. CLIPPED: no paint beyond the border of what the stroke
+//          lies on. CARRIED: on a model or a mover; software renderers go through both sides of a
+//          condition, and most strokes need neither colour_clip.glsl nor soft bristles.
+// Inputs, outputs: stroke_mark.glsl's; BUMPED: stroke_bump.glsl's; CLIPPED: stroke_clip.glsl's, and
+//          with CARRIED colour_clip.glsl's.
 // Precision: as there.
 #include "pipeline/styles/strokes/shaders/stroke_mark.glsl"
 #ifdef BUMPED
 #include "pipeline/styles/strokes/shaders/stroke_bump.glsl"
 #endif
 #ifdef CLIPPED
-#include "pipeline/styles/strokes/shaders/colour_clip.glsl"
 #include "pipeline/styles/strokes/shaders/stroke_clip.glsl"
+#ifdef CARRIED
+#include "pipeline/styles/strokes/shaders/colour_clip.glsl"
+#endif
 #endif
 
 void main() {
@@ -20,7 +23,9 @@ void main() {
   float cover = paint.a * texel.r;
 #ifdef CLIPPED
   Within share = within();
-  cover *= shareOfColour(paint.rgb, goesByItself(label), share.isMixed);
+#ifdef CARRIED
+  cover *= shareOfColour(paint.rgb, share.isMixed);
+#endif
 #endif
 #ifdef BUMPED
   rgb = bumped(rgb, place);

@@ -2,8 +2,8 @@
 // Inputs:  stroke_strips.comp's vertices; fullSize: px.
 // Outputs: brush: along and across the stroke, in [0, 1] and in the brush's variant; along: the
 //          stroke's direction, px; paint; aspect: the stroke's length by its width; sense: its sign is
-//          the brush's across the stroke, its size the drawn width by the stroke's, plus
-//          kSoftBristles (stroke_mark.glsl); label: of what the stroke lies on.
+//          the brush's across the stroke, its size the drawn width by the stroke's; label: of what the
+//          stroke lies on.
 // Precision: highp.
 layout(location = 0) in vec2 at;
 layout(location = 1) in vec2 brushAt;

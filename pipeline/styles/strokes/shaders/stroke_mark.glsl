@@ -1,4 +1,5 @@
 // Purpose: the mark of a brush, at a fragment of a stroke.
+// Defines: CARRIED: the stroke is on a model or a mover.
 // Inputs:  brushes: R coverage of the brush's paint, G its height; stroke.vert's of the stroke, which
 //          is drawn kSmooth px wider on each side than it is (stroke_strips.comp).
 // Outputs: 0: sRGB-coded colour, premultiplied, and its coverage; 1: height, premultiplied, and in
@@ -15,13 +16,9 @@ layout(location = 1) out vec4 height;
 const float kThinEnd = 1.2;  // widths
 const float kVariants = 4.0;
 const float kSmooth = 0.75;  // px, as in stroke_strips.comp
-const float kSoftBristles = 4.0;  // added to the drawn width of strokes on models and movers
 
 // The drawn width by the stroke's.
-float drawnWidth() {
-  float width = abs(sense);
-  return width > kSoftBristles ? width - kSoftBristles : width;
-}
+float drawnWidth() { return abs(sense); }
 
 // Across the stroke, from -1 to 1; beyond that, where it is only drawn.
 float acrossStroke() {
@@ -42,24 +39,32 @@ vec2 brushPlace() {
   return vec2(onward, (floor(kVariants * brush.y) + 0.5 + 0.48 * across) / kVariants);
 }
 
+#ifdef CARRIED
+// The brush without its bristles of two texels.
+vec2 softAt(vec2 place) {
+  vec2 texel = 1.0 / vec2(textureSize(brushes, 0));
+  vec2 aside = vec2(0.5, 1.0) * texel;
+  // Taps are not to read the next variant.
+  float variant = floor(kVariants * brush.y) / kVariants;
+  vec2 rows = variant + vec2(0.5 * texel.y, 1.0 / kVariants - 0.5 * texel.y);
+  vec2 sum = vec2(0.0);
+  for (int i = 0; i < 4; ++i) {
+    vec2 tap = place + aside * (2.0 * vec2(i & 1, i >> 1) - 1.0);
+    sum += texture(brushes, vec2(tap.x, clamp(tap.y, rows.x, rows.y))).rg;
+  }
+  return 0.25 * sum;
+}
+#endif
+
 // Coverage and height. The side of a stroke is smooth: a step would look different with each part
 // of a pixel that the stroke moves. So would bristles of two texels, which are a pixel in the
 // finest strokes; they go where strokes are carried by models and movers.
 vec2 markAt(vec2 place) {
-  bool isSoft = abs(sense) > kSoftBristles;
-  vec2 texel = 1.0 / vec2(textureSize(brushes, 0));
-  vec2 aside = isSoft ? vec2(0.5, 1.0) * texel : vec2(0.0);
-  // Taps are not to read the next variant.
-  float variant = floor(kVariants * brush.y) / kVariants;
-  vec2 rows = isSoft ? variant + vec2(0.5 * texel.y, 1.0 / kVariants - 0.5 * texel.y)
-                     : vec2(0.0, 1.0);
-  int taps = isSoft ? 4 : 1;
-  vec2 sum = vec2(0.0);
-  for (int i = 0; i < taps; ++i) {
-    vec2 tap = place + aside * (2.0 * vec2(i & 1, i >> 1) - 1.0);
-    sum += texture(brushes, vec2(tap.x, clamp(tap.y, rows.x, rows.y))).rg;
-  }
-  vec2 mark = sum / float(taps);
+#ifdef CARRIED
+  vec2 mark = softAt(place);
+#else
+  vec2 mark = texture(brushes, place).rg;
+#endif
   float halfWidth = kSmooth / (drawnWidth() - 1.0);
   float side = clamp(0.5 + halfWidth * (1.0 - abs(acrossStroke())), 0.0, 1.0);
   return mark * vec2(side, 1.0);

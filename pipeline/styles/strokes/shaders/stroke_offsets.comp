@@ -1,27 +1,28 @@
-// Purpose: the first vertex of each stroke's strip, in painting order. A single work group.
+// Purpose: the first vertex of each stroke's strip, in painting order, but that those of carried
+//          strokes come after all others: they are drawn by another program. A single work group.
 // Inputs:  instanceCount strokes in drawn; plans: breaks; even: if above 0, the number of quads of
 //          every strip; clips: whether strokes are clipped; byMovers: if so, by movers alone;
 //          busyWord: then the word of busyWords (marks/busy_blocks.h) that tells whether there are any.
-// Outputs: plans: first; commands: glDrawArraysIndirect's of what is not clipped and of what is:
-//          all strokes are the one or the other. A stroke that a mover has carried may outlive it: while
-//          there is one, strokes are clipped.
+// Outputs: plans: first; commands: glDrawArraysIndirect's of what is not clipped and of what is: all
+//          strokes but carried ones are the one or the other; and of carried ones. A stroke that a mover
+//          has carried may outlive it: while there is one, strokes are clipped.
 // Precision: integers.
 #include "pipeline/styles/strokes/shaders/stroke_strip.glsl"
 layout(local_size_x = 128) in;
 layout(std430, binding = 0) readonly buffer Drawn { DrawCommand drawn; };
 layout(std430, binding = 1) buffer Plans { StripPlan plans[]; };
-layout(std430, binding = 2) volatile writeonly buffer Commands { DrawCommand commands[2]; };
+layout(std430, binding = 2) volatile writeonly buffer Commands { DrawCommand commands[3]; };
 layout(std430, binding = 3) readonly buffer BusyBlocks { uint busyWords[]; };
 uniform uint even;
 uniform bool clips;
 uniform bool byMovers;
 uniform uint busyWord;
 
-shared uint before[128];
-shared uint carried;
+shared uvec2 before[128];  // vertices: of carried strokes in y
 
-uint verticesOf(uint rank) {
-  return stripVertices(even > 0u ? even : 1u + uint(bitCount(breaksOf(plans[rank]))));
+uvec2 verticesOf(uint rank) {
+  uint count = stripVertices(even > 0u ? even : 1u + uint(bitCount(breaksOf(plans[rank]))));
+  return isCarried(plans[rank]) ? uvec2(0u, count) : uvec2(count, 0u);
 }
 
 void main() {
@@ -30,30 +31,26 @@ void main() {
   uint each = (strokes + 127u) / 128u;
   uint start = min(me * each, strokes);
   uint end = min(start + each, strokes);
-  uint mine = 0u;
-  uint flags = 0u;
-  if (me == 0u) carried = 0u;
-  for (uint i = start; i < end; ++i) {
-    mine += verticesOf(i);
-    flags |= plans[i].breaks;
-  }
+  uvec2 mine = uvec2(0u);
+  for (uint i = start; i < end; ++i) mine += verticesOf(i);
   before[me] = mine;
   barrier();
-  if ((flags & kCarried) != 0u) atomicOr(carried, 1u);
   for (uint reach = 1u; reach < 128u; reach *= 2u) {
-    uint there = me >= reach ? before[me - reach] : 0u;
+    uvec2 there = me >= reach ? before[me - reach] : uvec2(0u);
     barrier();
     before[me] += there;
     barrier();
   }
+  uvec2 all = before[127];
   if (me == 127u) {
-    bool isClipped = clips && !(byMovers && carried == 0u && busyWords[busyWord] == 0u);
-    commands[0] = DrawCommand(isClipped ? 0u : before[127], 1u, 0u, 0u);
-    commands[1] = DrawCommand(isClipped ? before[127] : 0u, 1u, 0u, 0u);
+    bool isClipped = clips && !(byMovers && all.y == 0u && busyWords[busyWord] == 0u);
+    commands[0] = DrawCommand(isClipped ? 0u : all.x, 1u, 0u, 0u);
+    commands[1] = DrawCommand(isClipped ? all.x : 0u, 1u, 0u, 0u);
+    commands[2] = DrawCommand(all.y, 1u, all.x, 0u);
   }
-  uint place = before[me] - mine;
+  uvec2 place = before[me] - mine + uvec2(0u, all.x);
   for (uint i = start; i < end; ++i) {
-    plans[i].first = place;
+    plans[i].first = isCarried(plans[i]) ? place.y : place.x;
     place += verticesOf(i);
   }
 }

@@ -18,6 +18,7 @@ struct StripPlan {
 const uint kCarried = 1u << 31u;  // the stroke lies on a model or a mover
 
 uint breaksOf(StripPlan plan) { return plan.breaks & ~kCarried; }
+bool isCarried(StripPlan plan) { return (plan.breaks & kCarried) != 0u; }
 
 // Each strip's first and last vertex are doubled, which joins all strips into one.
 uint stripVertices(uint quads) { return 2u * quads + 4u; }

@@ -17,7 +17,7 @@ struct Vertex {
   uint along;   // snorms: the stroke's direction
   uvec2 paint;  // halves
   uint shape;  // halves: the stroke's length by its width; the sense of the brush across it, times
-               // the drawn width by the stroke's, plus kSoftBristles
+               // the drawn width by the stroke's
   uint label;
 };
 layout(std430, binding = 1) readonly buffer Drawn { DrawCommand drawn; };
@@ -28,7 +28,6 @@ uniform uint even;
 
 const float kVariants = 4.0;
 const float kSmooth = 0.75;  // px
-const float kSoftBristles = 4.0;  // as in stroke_mark.glsl
 const float kBeyond = 0.6;  // half widths: the brush's own round ends go beyond the skeleton's
 
 void main() {
@@ -48,7 +47,6 @@ void main() {
   float sense = shape.y >= kVariants ? -1.0 : 1.0;
 #ifndef LONG
   float broader = 1.0 + kSmooth / max(shape.x, 0.5);
-  float drawn = broader + (goesByItself(uint(shape.z)) ? kSoftBristles : 0.0);
 #endif
   Vertex made;
   made.paint = uvec2(packHalf2x16(paint.rg), packHalf2x16(paint.ba));
@@ -57,7 +55,7 @@ void main() {
   made.shape = packHalf2x16(vec2(aspect, sense));
   made.label = uint(shape.z) | variant << 16u;
 #else
-  made.shape = packHalf2x16(vec2(aspect, sense * drawn));
+  made.shape = packHalf2x16(vec2(aspect, sense * broader));
   made.label = uint(shape.z);
 #endif
   uint next = plan.first;
