@@ -216,7 +216,11 @@ void HatchLines::layOut(const scene::ArFrame& frame, const Inputs& inputs, const
       .set("colour", rule.colour);
   bindHatchTone(lay_, frame, *inputs.tone, rule);
   lay_.dispatch({static_cast<int>(slots_), 1}, GL_SHADER_STORAGE_BARRIER_BIT);
-  stripMaker_.lay(instances_, command_, StrokeQuads::kCurvature, strips_);
+  StripClipping clipping{.clips = frame.hasObjects || inputs.movers != nullptr};
+  if (!frame.hasObjects && inputs.movers != nullptr) {
+    clipping.onlyMovers = inputs.movers->busyBlocks();
+  }
+  stripMaker_.lay(instances_, command_, StrokeQuads::kCurvature, strips_, clipping);
 }
 
 }  // namespace pleinair::styles

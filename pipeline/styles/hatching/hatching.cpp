@@ -121,6 +121,20 @@ struct Drawing {
   std::vector<std::unique_ptr<HatchLines>> sets;
 };
 
+/// Draw lines, and keep them on what they lie on, or do not.
+struct LinePrograms {
+  gpu::Program plain, clipped;
+};
+
+LinePrograms linesOf(const gpu::ShaderLibrary& library, gpu::ShaderDefines defines) {
+  const auto make = [&] {
+    return library.draw(kShaders + "line.vert", kShaders + "line.frag", defines);
+  };
+  gpu::Program plain = make();
+  defines.push_back({"CLIPPED"});
+  return {.plain = std::move(plain), .clipped = make()};
+}
+
 }  // namespace
 
 struct Hatching::State {
@@ -136,8 +150,8 @@ struct Hatching::State {
         contourLines(library.fragmentPass(kShaders + "contours.frag", {}, {TextureFormat::kRg8})),
         contourLinesOfModels(
             library.fragmentPass(kShaders + "contours.frag", {{"MODELS"}}, {TextureFormat::kRg8})),
-        lines(library.draw(kShaders + "line.vert", kShaders + "line.frag")),
-        linesClipped(library.draw(kShaders + "line.vert", kShaders + "line.frag", {{"CLIPPED"}})),
+        lines(linesOf(library, {})),
+        grainyLines(linesOf(library, {{"GRAIN"}})),
         borders(library),
         compose(library.fragmentPass(kShaders + "compose.frag", {}, {TextureFormat::kRgba8})),
         view(library.fragmentPass(kShaders + "view.frag", viewDefines(kViews))),
@@ -154,8 +168,8 @@ struct Hatching::State {
   gpu::Program contourEdges;
   gpu::Program contourLines;
   gpu::Program contourLinesOfModels;
-  gpu::Program lines;
-  gpu::Program linesClipped;
+  LinePrograms lines;
+  LinePrograms grainyLines;
   StrokeBorders borders;
   gpu::Program compose;
   gpu::Program view;
@@ -176,6 +190,8 @@ struct Hatching::State {
   void follow(const scene::ArFrame& frame, const HatchingParameters& p);
   void findTone(const scene::ArFrame& frame, const HatchingParameters& p);
   void findContours(const scene::ArFrame& frame, const HatchingParameters& p);
+  void drawPart(StripPart part, const scene::ArFrame& frame, const HatchingParameters& p,
+                const StrokeStrips& laid);
   void drawLines(const scene::ArFrame& frame, const HatchingParameters& p, std::string_view name);
   void finish(const scene::ArFrame& frame, const HatchingParameters& p);
   void show(const scene::ArFrame& frame, const HatchingParameters& p, std::string_view name);
@@ -285,15 +301,28 @@ void Hatching::State::drawLines(const scene::ArFrame& frame, const HatchingParam
   canvas->inkTarget.beginDiscarding();
   canvas->inkTarget.clearColour(0, glm::vec4(0.0F));
   for (const auto& set : drawing->sets) {
-    gpu::Program& program = isClipped ? linesClipped : lines;
-    program.use()
-        .texture("brushes", brushes.brush(p.brush, kBrushTexelsAcross))
-        .set("grain", static_cast<float>(p.grain))
-        .set("scale", static_cast<float>(frame.pixelsOfFull().x))
-        .set("fullSize", glm::vec2(frame.full().width, frame.full().height));
-    if (isClipped) program.texture("borders", canvas->borders);
-    strips.draw(program, set->strips(), StripPart::kPlain, canvas->inkTarget);
+    drawPart(StripPart::kPlain, frame, p, set->strips());
+    if (isClipped) drawPart(StripPart::kClipped, frame, p, set->strips());
+    drawPart(StripPart::kCarried, frame, p, set->strips());
   }
+}
+
+/// Draws nothing where the strips were laid out for another part.
+void Hatching::State::drawPart(StripPart part, const scene::ArFrame& frame,
+                               const HatchingParameters& p, const StrokeStrips& laid) {
+  const bool hasGrain = p.grain > 0.0;
+  const bool isClipped = part != StripPart::kPlain && (frame.hasObjects || p.movers);
+  LinePrograms& programs = hasGrain ? grainyLines : lines;
+  gpu::Program& program = isClipped ? programs.clipped : programs.plain;
+  program.use()
+      .set("scale", static_cast<float>(frame.pixelsOfFull().x))
+      .set("fullSize", glm::vec2(frame.full().width, frame.full().height));
+  if (hasGrain) {
+    program.texture("brushes", brushes.brush(p.brush, kBrushTexelsAcross))
+        .set("grain", static_cast<float>(p.grain));
+  }
+  if (isClipped) program.texture("borders", canvas->borders);
+  strips.draw(program, laid, part, canvas->inkTarget);
 }
 
 void Hatching::State::finish(const scene::ArFrame& frame, const HatchingParameters& p) {

@@ -51,11 +51,7 @@ class LongStrips : public HatchingTest {
     target.clearColour(0, glm::vec4(0.0F));
     gpu::Program program = library_.draw("pipeline/styles/hatching/shaders/line.vert",
                                          "pipeline/styles/hatching/shaders/line.frag");
-    program.use()
-        .texture("brushes", ink_)
-        .set("grain", 0.0F)
-        .set("scale", 1.0F)
-        .set("fullSize", glm::vec2(kPage.width, kPage.height));
+    program.use().set("scale", 1.0F).set("fullSize", glm::vec2(kPage.width, kPage.height));
     StripDrawing().draw(program, strips, StripPart::kPlain, target);
     const std::vector<std::uint8_t> bytes = bytesOf(ink);
     std::vector<std::uint8_t> alphas;
@@ -64,7 +60,6 @@ class LongStrips : public HatchingTest {
   }
   static std::size_t quadsOf(std::uint32_t vertices) { return (vertices - 4) / 2; }
 
-  gpu::Texture ink_{gpu::TextureFormat::kRgba8, {1, 1}};
   std::uint32_t vertices_ = 0;
 };
 

@@ -3,7 +3,7 @@
 // Defines: LONG: stroke_strip.glsl's; it also bends at every other knot, counted
 //          from both ends: it swells as its widths do. If widths chose knots, their noise would be seen.
 // Inputs:  instances, instanceCount of them in drawn; bend: px that a quad's chord may deviate.
-// Outputs: plans: breaks, and whether the stroke is carried, but of LONG ones. One invocation per stroke.
+// Outputs: plans: breaks, and whether the stroke is carried. One invocation per stroke.
 // Precision: highp.
 #include "pipeline/marks/shaders/stroke_label.glsl"
 #include "pipeline/styles/strokes/shaders/strip_spline.glsl"
@@ -40,8 +40,6 @@ void main() {
     turn = isOff ? turned : turns;
     before = here;
   }
-#ifndef LONG
   if (goesByItself(uint(instances[rank].shape.z))) breaks |= kCarried;
-#endif
   plans[rank].breaks = breaks;
 }
