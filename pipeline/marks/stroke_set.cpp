@@ -87,8 +87,8 @@ struct StrokeSet::State {
   glm::ivec2 allSlots() const { return {static_cast<int>(slots), 1}; }
   void carryWithObjects(const scene::ArFrame& frame, const AnchorSet& anchors,
                         const StrokeRule& rule);
-  /// Lists the strokes and traces them, by three programs: no embedded GPU has registers for what
-  /// strokes on models, beside them and on movers ask in one.
+  /// Lists the strokes and traces them, by three programs: one for strokes on models, beside them
+  /// and on movers needs more registers than a Raspberry Pi has.
   void grow(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
             const StrokePaint& paint, const StrokeRule& rule, const MotionLayers* layers,
             const gpu::Texture* borders, hal::Duration step);
@@ -238,10 +238,6 @@ void StrokeSet::State::traceListed(gpu::Program& program, std::size_t groups,
       .set("focalPx", frame.surfaces ? focalOf(*frame.surfaces, frame) : 0.0F)
       .set("layer", glm::vec2(rule.layer, rule.layers));
   if (program.hasUniform("hasSegments")) program.set("hasSegments", borders != nullptr ? 1 : 0);
-  if (program.hasUniform("hasObjects")) program.set("hasObjects", frame.hasObjects ? 1 : 0);
-  if (program.hasUniform("hasLabels")) {
-    program.set("hasLabels", borders != nullptr || frame.hasObjects ? 1 : 0);
-  }
   rule.focus.bind(program);
   program.dispatchListed(lists, groups, program.groupsFor({static_cast<int>(slots), 1}),
                          GL_SHADER_STORAGE_BARRIER_BIT);

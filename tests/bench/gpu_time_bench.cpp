@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <ctime>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -100,11 +101,15 @@ class Filler {
     glAttachShader(program_, shader);
     glLinkProgram(program_);
     glDeleteShader(shader);
+    GLint isLinked = GL_FALSE;
+    glGetProgramiv(program_, GL_LINK_STATUS, &isLinked);
+    if (isLinked == GL_FALSE) throw std::runtime_error("the filler does not link");
     glGenBuffers(1, &buffer_);
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer_);
     glBufferData(GL_SHADER_STORAGE_BUFFER, sizeof(float) * 64 * kGroups, nullptr, GL_DYNAMIC_COPY);
-    rounds_ = 1000;
-    for (int i = 0; i < 12 && millisecondsOf() < kMilliseconds; ++i) rounds_ *= 2;
+    const auto warm = std::chrono::steady_clock::now();
+    while (millisecondsSince(warm) < 1000.0) millisecondsOf();
+    while (rounds_ < kMostRounds && millisecondsOf() < kMilliseconds) rounds_ *= 2;
   }
   Filler(const Filler&) = delete;
   Filler& operator=(const Filler&) = delete;
@@ -120,9 +125,17 @@ class Filler {
     glFlush();
   }
 
+  double millisecondsOf() const {
+    const auto start = std::chrono::steady_clock::now();
+    issue();
+    glFinish();
+    return millisecondsSince(start);
+  }
+
  private:
   static constexpr GLuint kGroups = 512;
   static constexpr double kMilliseconds = 5.0;
+  static constexpr int kMostRounds = 1 << 24;
   static constexpr const char* kText = R"(#version 310 es
 layout(local_size_x = 64) in;
 layout(location = 0) uniform int rounds;
@@ -134,15 +147,8 @@ void main() {
 }
 )";
 
-  double millisecondsOf() const {
-    const auto start = std::chrono::steady_clock::now();
-    issue();
-    glFinish();
-    return millisecondsSince(start);
-  }
-
   GLuint program_ = 0, buffer_ = 0;
-  int rounds_ = 0;
+  int rounds_ = 1000;
 };
 
 double processMilliseconds() {
@@ -171,11 +177,7 @@ void byQueries(benchmark::State& state, const Setting& setting) {
     return sum;
   };
   const Filler filler;
-  const auto warmUntil = std::chrono::steady_clock::now() + std::chrono::seconds(1);
-  while (std::chrono::steady_clock::now() < warmUntil) {
-    filler.issue();
-    bench.waitForGpu();
-  }
+  state.counters["filler"] = filler.millisecondsOf();
   read();
   const std::map<std::string, double> before = totals;
   for ([[maybe_unused]] auto _ : state) {

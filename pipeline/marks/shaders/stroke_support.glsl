@@ -9,7 +9,7 @@
 //          mover_motion.glsl's; paint, modelPaint, moverPaint: the reduced images of the
 //          background, of models and of movers; finePaint, fineGround: the finest of models and of
 //          the background; paintTexel: the width of modelPaint's texels, px of the full image;
-//          labels if hasLabels: of pixels, in the lower bits of ArFrame::forms or of
+//          labels, but with MOVERS_ONLY: of pixels, in the lower bits of ArFrame::forms or of
 //          StrokeSet::update()'s borders, which labelMask tells; hasSegments: they have segments'
 //          labels, too; fullSize, px; pixelsOfFull: pixels of `labels` to a px of the full image;
 //          modelDetail: factor of the detail on virtual surfaces; looseness, and loosePx: the
@@ -35,22 +35,16 @@ uniform highp usampler2D labels;
 uniform uint labelMask;
 #ifdef ON_MODELS
 const bool isModel = true;  // what the stroke is on
-const bool hasObjects = true;
-const bool hasLabels = true;
 #else
 const bool isModel = false;
-#ifndef MOVERS_ONLY
-uniform bool hasObjects;
-uniform bool hasLabels;
-#endif
 #endif
 #ifdef MOVERS_ONLY
 const bool mayBeOnMover = true;
-const bool hasObjects = false;
 const bool hasLabels = false;
 const bool hasSegments = false;
 #else
 const bool mayBeOnMover = false;
+const bool hasLabels = true;
 uniform bool hasSegments;
 #endif
 uniform vec2 fullSize;

@@ -3,10 +3,10 @@
 //          constants (§5.4), so that a stroke lives as long as its anchor.
 //          A stroke stays on what it lies on: it ends where its label does (stroke_label.glsl), or
 //          its depth makes a step.
-// Defines: stroke_support.glsl's; ON_MODELS: strokes on models (stroke_lists.glsl).
+// Defines: stroke_support.glsl's, for the lists of stroke_lists.glsl.
 // Inputs:  anchors, slots of them; StrokeLists: those that are traced (stroke_lists.glsl);
-//          stroke_walk.glsl's; background (marks::MotionLayers); ids (ArFrame) if
-//          hasObjects; depthRange: the near and the far plane in metres, 0: no depth; focalPx: of
+//          stroke_walk.glsl's; background (marks::MotionLayers); ids (ArFrame), ON_MODELS;
+//          depthRange: the near and the far plane in metres, 0: no depth; focalPx: of
 //          the full image, 0: not known; imageScale: the anchors', octaves; focus.glsl's; layer: its
 //          number and how many; the rest as in marks::StrokeRule.
 // Outputs: strokes. One invocation per stroke of its list.
@@ -190,7 +190,7 @@ bool beginsAnew(uint slot, uint state, vec2 px, bool isBeside, bool hasJoined, b
     isStale = true;
     strokes[slot].exists = 0.0;  // also when that has become old
   }
-  if (isUnder) turn(slot, turnOf(slot, hasObjects && !isReal));
+  if (isUnder) turn(slot, turnOf(slot, isModel));
   if (isStale && !isBehind) return true;
   // Segments may have been labelled anew.
   uint label = labelOfStroke(strokes[slot].state);

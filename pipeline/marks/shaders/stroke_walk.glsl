@@ -1,7 +1,7 @@
 // Purpose: walks one arm of a stroke along the field (thesis §4.4) until it turns too sharply,
 //          leaves what it lies on, or its colour or detail is no longer the stroke's.
 // Defines: stroke_support.glsl's.
-// Inputs:  stroke_support.glsl's; depth (ArFrame) if hasObjects, within objectBounds; segment: the
+// Inputs:  stroke_support.glsl's; depth (ArFrame), ON_MODELS; objectBounds; segment: the
 //          length of a step, px of the full image; steps: of an arm, at most kArm; minSteps: of one
 //          that detail or colour ends; colourThreshold; cutOff: cosine of the sharpest turn;
 //          detailBand: the detail in which the layer is painted; arms: 2, of kArm steps each, a
@@ -128,8 +128,8 @@ void endArm(int number, float length) { walked[number].length = min(steps, lengt
 // Walks an arm, ahead or behind, and stores it. Behind its end, only its directions go on.
 void walk(int side, vec2 from, Support on) {
   bool mayLeave = clips && (isModel || reachesLabels(from));
-  // The camera image goes on behind a model: strokes do, too, and are clipped where it is drawn. They
-  // do not go far: nothing is known of what is there.
+  // The camera image goes on behind a model: strokes do, too, and are clipped where it is drawn. The
+  // background's do not go far: nothing is known of what is there. Movers' are not asked.
   bool goesBehind = mayLeave && !isModel;
   float left = kBehind * fullSize.x;
   int number = side * kWalkers + int(gl_LocalInvocationIndex);

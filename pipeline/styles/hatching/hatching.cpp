@@ -121,7 +121,7 @@ struct Drawing {
   std::vector<std::unique_ptr<HatchLines>> sets;
 };
 
-/// Draw lines, and keep them on what they lie on, or do not.
+/// The programs that draw lines; `clipped` keeps each on what it lies on.
 struct LinePrograms {
   gpu::Program plain, clipped;
 };
@@ -190,8 +190,8 @@ struct Hatching::State {
   void follow(const scene::ArFrame& frame, const HatchingParameters& p);
   void findTone(const scene::ArFrame& frame, const HatchingParameters& p);
   void findContours(const scene::ArFrame& frame, const HatchingParameters& p);
-  void drawPart(StripPart part, const scene::ArFrame& frame, const HatchingParameters& p,
-                const StrokeStrips& laid);
+  void drawPart(StripPart part, bool isClipped, const scene::ArFrame& frame,
+                const HatchingParameters& p, const StrokeStrips& laid);
   void drawLines(const scene::ArFrame& frame, const HatchingParameters& p, std::string_view name);
   void finish(const scene::ArFrame& frame, const HatchingParameters& p);
   void show(const scene::ArFrame& frame, const HatchingParameters& p, std::string_view name);
@@ -300,18 +300,17 @@ void Hatching::State::drawLines(const scene::ArFrame& frame, const HatchingParam
   if (isClipped) borders.draw(frame, moversOf(p), canvas->bordersTarget);
   canvas->inkTarget.beginDiscarding();
   canvas->inkTarget.clearColour(0, glm::vec4(0.0F));
+  const bool mayBePlain = !frame.hasObjects;  // as HatchLines lays them out
   for (const auto& set : drawing->sets) {
-    drawPart(StripPart::kPlain, frame, p, set->strips());
-    if (isClipped) drawPart(StripPart::kClipped, frame, p, set->strips());
-    drawPart(StripPart::kCarried, frame, p, set->strips());
+    if (mayBePlain) drawPart(StripPart::kPlain, false, frame, p, set->strips());
+    if (isClipped) drawPart(StripPart::kClipped, true, frame, p, set->strips());
+    drawPart(StripPart::kCarried, isClipped, frame, p, set->strips());
   }
 }
 
-/// Draws nothing where the strips were laid out for another part.
-void Hatching::State::drawPart(StripPart part, const scene::ArFrame& frame,
+void Hatching::State::drawPart(StripPart part, bool isClipped, const scene::ArFrame& frame,
                                const HatchingParameters& p, const StrokeStrips& laid) {
   const bool hasGrain = p.grain > 0.0;
-  const bool isClipped = part != StripPart::kPlain && (frame.hasObjects || p.movers);
   LinePrograms& programs = hasGrain ? grainyLines : lines;
   gpu::Program& program = isClipped ? programs.clipped : programs.plain;
   program.use()
@@ -405,6 +404,13 @@ void Hatching::warmUp(SceneContents contents) {
     frame.hasObjects = frame.hasFocus = hasMore && hasModels;
     ++frame.sequence;
     paint(frame, {});
+  }
+  const StrokeStrips blank = StrokeStrips::blank();
+  for (const double grain : {1.0, 0.0}) {
+    p_.grain = grain;
+    for (const bool isClipped : {true, false}) {
+      state_->drawPart(StripPart::kPlain, isClipped, frame, p_, blank);
+    }
   }
   if (hasModels) state_->hiding.warmUp();
   p_ = hatchingParameters().typed(values_);

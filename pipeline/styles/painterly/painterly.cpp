@@ -380,6 +380,7 @@ Painterly::~Painterly() = default;
 /// that shows a model, has a focus or is looked at in another way.
 void Painterly::warmUp(SceneContents contents) {
   constexpr hal::FrameSize kSize{16, 16};
+  constexpr int kWarmUpTexels = 8;
   const std::vector<std::uint8_t> zeros(std::size_t{16} * 16 * 4);
   Texture grey(TextureFormat::kRgba8, kSize, TextureFilter::kLinear);
   grey.upload(zeros, std::size_t{16} * 4);
@@ -398,6 +399,8 @@ void Painterly::warmUp(SceneContents contents) {
       paint(frame, {});
     }
   }
+  state_->drawing.warmUp(state_->brushes.brush(p_.brush, kWarmUpTexels), ids,
+                         state_->canvas->strokes);
   if (hasModels) state_->hiding.warmUp();
   p_ = painterlyParameters().typed(values_);
   state_->painting.reset();

@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 
 namespace pleinair::styles {
@@ -93,7 +94,9 @@ StrokeDrawing::Paint StrokeDrawing::paintOf(const gpu::ShaderLibrary& library,
 
 StrokeDrawing::StrokeDrawing(const gpu::ShaderLibrary& library,
                              std::span<const DebugViewInfo> views)
-    : library_(library), paint_(paintOf(library, {})), instances_(instanceLayout()) {
+    : paint_(paintOf(library, {})),
+      litPaint_(paintOf(library, {{"BUMPED"}})),
+      instances_(instanceLayout()) {
   if (views.empty()) return;
   view_ = library.draw(kShaders + "stroke_view.vert", kShaders + "stroke_view.frag",
                        viewDefines(views));
@@ -102,7 +105,6 @@ StrokeDrawing::StrokeDrawing(const gpu::ShaderLibrary& library,
 void StrokeDrawing::draw(const StrokeStrips& strips, const gpu::Texture& brush,
                          const StrokeLight& light, const StrokeClip& clip, hal::FrameSize full,
                          const gpu::RenderTarget& target) {
-  if (light.each && !litPaint_) litPaint_ = paintOf(library_, {{"BUMPED"}});
   // One of these two draws nothing.
   if (clip.borders == nullptr || clip.onlyMovers) {
     drawPart(StripPart::kPlain, strips, brush, light, clip, full, target);
@@ -116,7 +118,7 @@ void StrokeDrawing::draw(const StrokeStrips& strips, const gpu::Texture& brush,
 void StrokeDrawing::drawPart(StripPart part, const StrokeStrips& strips, const gpu::Texture& brush,
                              const StrokeLight& light, const StrokeClip& clip, hal::FrameSize full,
                              const gpu::RenderTarget& target) {
-  Paint& paint = light.each ? *litPaint_ : paint_;
+  Paint& paint = light.each ? litPaint_ : paint_;
   const bool isCarried = part == StripPart::kCarried;
   const bool isClipped = part == StripPart::kClipped || (isCarried && clip.borders != nullptr);
   gpu::Program& program = isCarried   ? (isClipped ? paint.carriedClipped : paint.carried)
@@ -133,6 +135,16 @@ void StrokeDrawing::drawPart(StripPart part, const StrokeStrips& strips, const g
         .set("targetSize", glm::vec2(size.width, size.height));
   }
   strips_.draw(program, strips, part, target);
+}
+
+void StrokeDrawing::warmUp(const gpu::Texture& brush, const gpu::Texture& borders,
+                           const gpu::RenderTarget& target) {
+  const StrokeStrips blank = StrokeStrips::blank();
+  for (const bool each : {true, false}) {
+    draw(blank, brush, {.each = each}, {}, target.size(), target);
+    draw(blank, brush, {.each = each}, {.borders = &borders, .picture = &brush}, target.size(),
+         target);
+  }
 }
 
 void StrokeDrawing::show(const marks::StrokeSet& strokes, int quads, std::size_t view,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 
@@ -39,7 +38,7 @@ struct StrokeClip {
 class StripDrawing {
  public:
   StripDrawing();
-  /// Precondition: `program` is in use and filled.
+  /// Draws one part. Precondition: `program` is in use and filled.
   void draw(const gpu::Program& program, const StrokeStrips& strips, StripPart part,
             const gpu::RenderTarget& target) const;
 
@@ -51,9 +50,8 @@ class StripDrawing {
 /// height together. All calls on the thread of the GL context it was made in.
 class StrokeDrawing {
  public:
-  /// `library`, which outlives this, has gpu::strokesShaders() and gpu::marksShaders(). `views` are
-  /// the style's; show() shows those named layers, skeletons and anchors, without which show() must
-  /// not be called.
+  /// `library` has gpu::strokesShaders() and gpu::marksShaders(). `views` are the style's; show()
+  /// shows those named layers, skeletons and anchors, without which show() must not be called.
   explicit StrokeDrawing(const gpu::ShaderLibrary& library,
                          std::span<const DebugViewInfo> views = {});
 
@@ -62,6 +60,11 @@ class StrokeDrawing {
   /// clipping.
   void draw(const StrokeStrips& strips, const gpu::Texture& brush, const StrokeLight& light,
             const StrokeClip& clip, hal::FrameSize full, const gpu::RenderTarget& target);
+
+  /// Uses each program once, so that no frame waits for one; draws nothing. `borders` is any of
+  /// StrokeClip's.
+  void warmUp(const gpu::Texture& brush, const gpu::Texture& borders,
+              const gpu::RenderTarget& target);
 
   /// Draws a view of a layer's strokes, in its colour, or anchors by their age; `view` is its place
   /// in the style's views. `quads` is the StrokeRule's
@@ -79,9 +82,8 @@ class StrokeDrawing {
                 const StrokeLight& light, const StrokeClip& clip, hal::FrameSize full,
                 const gpu::RenderTarget& target);
 
-  const gpu::ShaderLibrary& library_;
   Paint paint_;
-  std::optional<Paint> litPaint_;  // each stroke by itself; made when first asked for
+  Paint litPaint_;  // each stroke by itself
   std::optional<gpu::Program> view_;
   StripDrawing strips_;
   gpu::VertexArrayHandle instances_;

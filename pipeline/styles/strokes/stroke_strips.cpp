@@ -1,8 +1,11 @@
 #include "pipeline/styles/strokes/stroke_strips.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace pleinair::styles {
 namespace {
@@ -38,6 +41,18 @@ std::size_t evenQuads(std::size_t slots, StrokeForm form) {
 }
 
 }  // namespace
+
+StrokeStrips StrokeStrips::blank() {
+  constexpr std::uint32_t kVertices = 4;
+  const std::vector<std::byte> vertices(kVertices * kVertexBytes);
+  std::array<std::array<std::uint32_t, 4>, kStripParts> commands{};
+  commands.fill({kVertices, 1, 0, 0});
+  StrokeStrips strips;
+  strips.vertices =
+      gpu::Buffer::of(std::span<const std::byte>(vertices));
+  strips.commands = gpu::Buffer::of(std::span<const std::array<std::uint32_t, 4>>(commands));
+  return strips;
+}
 
 StrokeStripMaker::StrokeStripMaker(const gpu::ShaderLibrary& library, StrokeForm form)
     : form_(form),

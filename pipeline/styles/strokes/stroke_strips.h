@@ -28,8 +28,8 @@ constexpr std::size_t instanceBytesOf(StrokeForm form) {
   return form == StrokeForm::kLong ? 224 : marks::StrokeSet::kInstanceBytes;
 }
 
-/// Strokes that are drawn by one program: of those that do not lie on models or movers either the
-/// first two parts have all, and the other none.
+/// The strokes that one program draws. Strokes that lie on neither models nor movers are all in
+/// kPlain or all in kClipped; the others are in kCarried.
 enum class StripPart { kPlain, kClipped, kCarried };
 inline constexpr std::size_t kStripParts = 3;
 
@@ -42,6 +42,10 @@ struct StrokeStrips {
   gpu::Buffer commands;  ///< glDrawArraysIndirect's, one for each StripPart
 
   static constexpr std::size_t kVertexBytes = 32;  ///< shaders/stroke_strips.comp
+
+  /// A strip of no area in each part. Drivers make a program ready when it first draws, and draw
+  /// nothing for an empty part.
+  static StrokeStrips blank();
 };
 
 /// By what strokes are clipped.

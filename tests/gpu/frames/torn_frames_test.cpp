@@ -65,13 +65,18 @@ class ScribblingDriver {
     thread_ = std::thread([this] { run(); });
   }
   ~ScribblingDriver() {
+    end();
+    eglDestroyContext(display_, context_);
+  }
+  /// Leases may go back after it, and are not scribbled over.
+  void end() {
+    if (!thread_.joinable()) return;
     {
       const std::scoped_lock lock(mutex_);
       ends_ = true;
       changed_.notify_all();
     }
     thread_.join();
-    eglDestroyContext(display_, context_);
   }
 
   GLuint texture(std::uint32_t index) const { return names_.at(index); }
@@ -117,7 +122,10 @@ class ScribblingDriver {
   }
 
   void run() {
-    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+    {
+      const auto held = turn();
+      eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+    }
     std::unique_lock lock(mutex_);
     for (;;) {
       changed_.wait(lock, [this] { return ends_ || order_ || !returned_.empty(); });
@@ -140,6 +148,8 @@ class ScribblingDriver {
       isBusy_ = false;
       changed_.notify_all();
     }
+    lock.unlock();
+    const auto held = turn();
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   }
 
@@ -186,7 +196,9 @@ class TornFrames : public support::GlTest {
       return driver.texture(static_cast<std::uint32_t>(surface.surface.id));
     };
     const ShaderLibrary library;
+    auto making = driver.turn();
     CameraFrames frames(library, context_->info(), hook);
+    making.unlock();
     int torn = 0;
     for (int i = 0; i < count; ++i) {
       const auto level = static_cast<std::uint8_t>(10 + i % 200);
@@ -203,11 +215,12 @@ class TornFrames : public support::GlTest {
       auto held = driver.turn();
       const Texture& shown = frames.show(*frame, kTornSize, aspectFill(kTornSize, kTornSize));
       held.unlock();
-      frame.reset();  // the consumer is done with it, the GPU may not be
-      driver.scribble();
+      frame.reset();      // the consumer is done with it, the GPU may not be
+      driver.scribble();  // the driver rests when it returns
       const std::vector<std::uint8_t> pixels = pixelsOf(shown);
       if (pixels[4 * (kTornSize.pixels() / 2)] != level) ++torn;
     }
+    driver.end();
     importedFrames_ = frames.status().imported;
     EXPECT_EQ(frames.status().path, FramePath::kImported) << frames.status().reason;
     return torn;

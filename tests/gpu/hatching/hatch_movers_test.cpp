@@ -25,6 +25,13 @@ constexpr float kOnMover = 4095.0F;  // scene/render/shaders/surface_form.glsl
 
 class HatchMovers : public HatchingTest {
  protected:
+  /// Vertices of each StripPart.
+  using PartVertices = std::array<std::uint32_t, kStripParts>;
+  static PartVertices verticesOf(const HatchLines& lines) {
+    const auto commands = support::readBuffer<std::uint32_t>(lines.strips().commands);
+    return {commands[0], commands[4], commands[8]};
+  }
+
   struct Found {
     int onMover = 0;  // drawn lines
     int strays = 0;   // of their points, beyond the mover
@@ -35,6 +42,7 @@ class HatchMovers : public HatchingTest {
   struct Seen {
     std::vector<marks::Anchor> anchorsBefore, anchors;
     std::vector<StoredLine> before, after;
+    PartVertices verticesBefore{}, vertices{};
   };
   /// `luma`: of the disc, or of the ground, at a pixel.
   Seen seeDiscCome(Hatching& style, const std::function<double(bool, int, int)>& luma) {
@@ -52,15 +60,17 @@ class HatchMovers : public HatchingTest {
     for (int i = 0; i < 8; ++i) look(false);
     seen.anchorsBefore = style.set(0).anchors().read();
     seen.before = storedLines(style.set(0));
+    seen.verticesBefore = verticesOf(style.set(0));
     for (int i = 0; i < 4; ++i) look(true);
     seen.anchors = style.set(0).anchors().read();
     seen.after = storedLines(style.set(0));
+    seen.vertices = verticesOf(style.set(0));
     return seen;
   }
   Found see(const char* movers) {
     Hatching style(library_);
     set(style, {{"movers", movers}, {"directions", "1"}});
-    const auto [anchorsBefore, anchors, before, lines] =
+    const auto [anchorsBefore, anchors, before, lines, verticesBefore, vertices] =
         seeDiscCome(style, [](bool isDisc, int x, int y) {
           return isDisc ? 0.75 + 0.1 * std::sin(0.6 * y) : 0.3 + 0.1 * std::sin(0.6 * x);
         });
@@ -95,6 +105,21 @@ TEST_F(HatchMovers, HaveLinesOfTheirOwnAndLeaveTheOthersAsTheyAre) {
   const Found untold = see("false");
   EXPECT_EQ(untold.onMover, 0);
   EXPECT_GT(untold.changed, 5);
+}
+
+TEST_F(HatchMovers, ClipLinesOnlyWhileTheyAreThere) {
+  Hatching style(library_);
+  const Seen seen = seeDiscCome(style, [](bool isDisc, int x, int y) {
+    return isDisc ? 0.75 + 0.1 * std::sin(0.6 * y) : 0.3 + 0.1 * std::sin(0.6 * x);
+  });
+  const auto [plainBefore, clippedBefore, carriedBefore] = seen.verticesBefore;
+  EXPECT_GT(plainBefore, 0U);
+  EXPECT_EQ(clippedBefore, 0U);
+  EXPECT_EQ(carriedBefore, 0U);
+  const auto [plain, clipped, carried] = seen.vertices;
+  EXPECT_EQ(plain, 0U);
+  EXPECT_GT(clipped, 0U);
+  EXPECT_GT(carried, 0U);
 }
 
 /// Lines of crayon stray from the field, and some lie nearly across it where it has turned: none
@@ -141,7 +166,7 @@ TEST_F(HatchMovers, DoNotMoveTheLinesBesideThem) {
     Hatching style(library_);
     set(style,
         {{"movers", movers}, {"directions", "1"}, {"evenness", "0"}, {"shape_time", shapeTime}});
-    const auto [anchorsBefore, anchors, before, lines] =
+    const auto [anchorsBefore, anchors, before, lines, verticesBefore, vertices] =
         seeDiscCome(style, [](bool isDisc, int, int) { return isDisc ? 0.75 : 0.3; });
     int compared = 0;
     float farthest = 0.0F;

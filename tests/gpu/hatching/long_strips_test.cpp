@@ -1,11 +1,13 @@
 // Long strokes: their strips, and the ink that is drawn of them.
 #include <numeric>
+#include <optional>
 #include <random>
 #include <span>
 
 #include <gmock/gmock.h>
 
 #include "pipeline/gpu/render_target.h"
+#include "pipeline/styles/strokes/brushes.h"
 #include "pipeline/styles/strokes/stroke_drawing.h"
 #include "tests/gpu/hatching/hatching_fixture.h"
 
@@ -35,7 +37,9 @@ class LongStrips : public HatchingTest {
     return sum;
   }
   /// Lays the line out and draws it; the ink of each pixel, in 1/255.
-  std::vector<std::uint8_t> drawn(const DrawnLine& line) {
+  /// `grain`: of the brush's own mark; unset: by the program that does not know it.
+  std::vector<std::uint8_t> drawn(const DrawnLine& line,
+                                  std::optional<float> grain = std::nullopt) {
     const gpu::Buffer instances =
         gpu::Buffer::of(std::span<const DrawnLine>(&line, 1), gpu::BufferUsage::kDynamic);
     const std::array<std::uint32_t, 4> command{0, 1, 0, 0};
@@ -49,9 +53,12 @@ class LongStrips : public HatchingTest {
     const gpu::RenderTarget target({&ink});
     target.beginDiscarding();
     target.clearColour(0, glm::vec4(0.0F));
-    gpu::Program program = library_.draw("pipeline/styles/hatching/shaders/line.vert",
-                                         "pipeline/styles/hatching/shaders/line.frag");
+    gpu::Program program = library_.draw(
+        "pipeline/styles/hatching/shaders/line.vert", "pipeline/styles/hatching/shaders/line.frag",
+        grain ? gpu::ShaderDefines{{"GRAIN"}} : gpu::ShaderDefines{});
     program.use().set("scale", 1.0F).set("fullSize", glm::vec2(kPage.width, kPage.height));
+    const gpu::Texture brush = makeBrush(Brush::kPencil, 16);
+    if (grain) program.texture("brushes", brush).set("grain", *grain);
     StripDrawing().draw(program, strips, StripPart::kPlain, target);
     const std::vector<std::uint8_t> bytes = bytesOf(ink);
     std::vector<std::uint8_t> alphas;
@@ -122,6 +129,16 @@ TEST_F(LongStrips, NoWidthIsNoInk) {
   EXPECT_EQ(inkOfLine(line([](float part) { return glm::vec2(20.0F + 150.0F * part, 60.0F); },
                            [](float) { return 0.0F; })),
             0.0);
+}
+
+TEST_F(LongStrips, GrainIsTheMarkOfTheBrush) {
+  const DrawnLine thick = line([](float part) { return glm::vec2(20.0F + 150.0F * part, 60.0F); },
+                               [](float) { return 4.0F; });
+  const std::vector<std::uint8_t> plain = drawn(thick);
+  EXPECT_EQ(drawn(thick, 0.0F), plain);
+  const std::vector<std::uint8_t> grainy = drawn(thick, 1.0F);
+  EXPECT_LT(std::accumulate(grainy.begin(), grainy.end(), 0),
+            0.97 * std::accumulate(plain.begin(), plain.end(), 0));
 }
 
 }  // namespace

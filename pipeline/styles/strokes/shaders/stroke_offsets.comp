@@ -1,5 +1,5 @@
-// Purpose: the first vertex of each stroke's strip, in painting order, but that those of carried
-//          strokes come after all others: they are drawn by another program. A single work group.
+// Purpose: the first vertex of each stroke's strip, in painting order, carried strokes after all
+//          others: they are drawn by another program. A single work group.
 // Inputs:  instanceCount strokes in drawn; plans: breaks; even: if above 0, the number of quads of
 //          every strip; clips: whether strokes are clipped; byMovers: if so, by movers alone;
 //          busyWord: then the word of busyWords (marks/busy_blocks.h) that tells whether there are any.
