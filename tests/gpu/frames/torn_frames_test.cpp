@@ -64,6 +64,8 @@ class ScribblingDriver {
     display_ = eglGetCurrentDisplay();
     thread_ = std::thread([this] { run(); });
   }
+  ScribblingDriver(const ScribblingDriver&) = delete;
+  ScribblingDriver& operator=(const ScribblingDriver&) = delete;
   ~ScribblingDriver() {
     end();
     eglDestroyContext(display_, context_);

@@ -28,28 +28,36 @@ layout(location = 0) out vec2 contour;
 const float kStride = 1.8;  // steps between taps: specks of a texture are shorter than a line
 const float kSmooth[4] = float[4](0.24, 0.2, 0.12, 0.06);
 
+// To one of four sides, and its opposite.
+vec2 sideOf(int i) {
+  float side = float(2 * (i & 1) - 1);
+  return i < 2 ? vec2(side, 0.0) : vec2(0.0, side);
+}
+
 // The largest difference of colour between the picture and the remembered background, from px to
-// 3 px inside the label; 1 where the background was never seen.
-float unlikeBehind(vec2 px) {
+// 3 px inside the label; 1 where the background was never seen. Not asked: 0.
+float unlikeBehind(vec2 px, bool isAsked) {
   const float kBeside = 3.0;  // px, to find the inner side
   const int kTaps = 3;
   const float kTapPx = 1.5;
-  vec2 inwards = vec2(moverAt(px + vec2(kBeside, 0.0)).r - moverAt(px - vec2(kBeside, 0.0)).r,
-                      moverAt(px + vec2(0.0, kBeside)).r - moverAt(px - vec2(0.0, kBeside)).r);
+  vec2 inwards = vec2(0.0);
+  for (int i = isAsked ? 0 : 4; i < 4; ++i) {
+    inwards += moverAt(px + kBeside * sideOf(i)).r * sideOf(i);
+  }
   inwards *= inversesqrt(max(dot(inwards, inwards), 1e-6));
   float most = 0.0;
-  for (int i = 0; i < kTaps; ++i) {
+  for (int i = isAsked ? 0 : kTaps; i < kTaps; ++i) {
     vec2 at = px + kTapPx * float(i) * inwards;
     vec4 behind = textureLod(background, inLayers(background, at), 0.0);
-    if (behind.a < 1.0) return 1.0;
     vec3 seen = textureLod(picture, at * pixelsOfFull / size, 0.0).rgb;
-    most = max(most, apart(seen, behind.rgb));
+    most = max(most, behind.a < 1.0 ? 1.0 : apart(seen, behind.rgb));
   }
   return most;
 }
 
 // The outline of labels that are averaged over nine places, so that it has no steps of their cells,
-// and none around specks: what is narrower than kSpread may have none.
+// and none around specks: what is narrower than kSpread may have none. Of loops that no invocation
+// enters, software renderers run a single round; of a condition, both sides.
 float moverLine(vec2 px) {
   const float kSpread = 2.5;  // px between the places
   const float kRamp = 3.5;    // px: half of what the average takes from 0 to 1
@@ -58,16 +66,14 @@ float moverLine(vec2 px) {
   for (int i = 0; i < 4; ++i) {
     mover += moverAt(px + kSpread * (2.0 * vec2(i & 1, i >> 1) - 1.0)).r;
   }
-  if (mover <= 0.0 || mover >= kAll) return 0.0;
-  mover += moverAt(px).r;
-  for (int i = 0; i < 4; ++i) {
-    float side = kSpread * float(2 * (i & 1) - 1);
-    mover += moverAt(px + (i < 2 ? vec2(side, 0.0) : vec2(0.0, side))).r;
+  bool isNear = mover > 0.0 && mover < kAll;
+  for (int i = isNear ? 0 : 5; i < 5; ++i) {
+    mover += moverAt(px + (i < 4 ? kSpread * sideOf(i) : vec2(0.0))).r;
   }
   float off = abs(2.0 * mover / 9.0 - 1.0) * kRamp * pixelsOfFull.x;
   float line = clamp(min(0.5 * step_ + 0.5, kRamp * pixelsOfFull.x) - off, 0.0, 1.0);
-  if (line > 0.0) line *= smoothstep(0.05, 0.1, unlikeBehind(px));
-  return line;
+  line *= isNear ? 1.0 : 0.0;
+  return line * smoothstep(0.05, 0.1, unlikeBehind(px, line > 0.0));
 }
 
 float edgeAt(vec2 pixel) { return textureLod(edges, pixel / size, 0.0).r; }
