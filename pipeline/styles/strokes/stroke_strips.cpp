@@ -48,8 +48,7 @@ StrokeStrips StrokeStrips::blank() {
   std::array<std::array<std::uint32_t, 4>, kStripParts> commands{};
   commands.fill({kVertices, 1, 0, 0});
   StrokeStrips strips;
-  strips.vertices =
-      gpu::Buffer::of(std::span<const std::byte>(vertices));
+  strips.vertices = gpu::Buffer::of(std::span<const std::byte>(vertices));
   strips.commands = gpu::Buffer::of(std::span<const std::array<std::uint32_t, 4>>(commands));
   return strips;
 }
