@@ -153,8 +153,27 @@ void refuseUnknownStyle(const OptionValue& option) {
   const std::vector<std::string> names = styleNames();
   if (std::ranges::find(names, option.text) != names.end()) return;
   throw ConfigError({.file = option.option,
-                     .found = foundStyle(option.text),
+                     .found = foundStyle(option.text, "--look {}"),
                      .allowed = "one of " + config::listText(names)});
+}
+
+/// The same of a file, where the style's name is easily given for its parameters, too.
+void applyFile(Sections& sections, const TomlDocument& document) {
+  const config::TomlTable& root = document.root();
+  const std::vector<std::string> names = styleNames();
+  if (root.isString("style")) {
+    throw root.error("style", "is the table of styles' parameters",
+                     "its name as style in [painting]");
+  }
+  const auto painting = root.isTable("painting") ? root.optionalTable("painting") : std::nullopt;
+  if (painting && painting->isString("style")) {
+    const std::string style = painting->string("style");
+    if (std::ranges::find(names, style) == names.end()) {
+      throw painting->error("style", "found " + foundStyle(style, "look = \"{}\""),
+                            "one of " + config::listText(names));
+    }
+  }
+  sections.apply(document);
 }
 
 void applyCommandLine(Sections& sections, const ConfigurationRequest& request) {
@@ -178,7 +197,7 @@ void applyCommandLine(Sections& sections, const ConfigurationRequest& request) {
 std::optional<TomlDocument> readProfile(Sections sections, const ConfigurationRequest& request,
                                         const std::optional<SiteFile>& site,
                                         std::vector<fs::path>& files) {
-  if (site) sections.apply(site->document);
+  if (site) applyFile(sections, site->document);
   for (const EnvironmentVariable& variable : request.environment) {
     if (variable.name == kProfileVariable) sections.apply(variable);
   }
@@ -312,9 +331,9 @@ Configuration::Configuration(const ConfigurationRequest& request)
     if (profile->root().has(kProfileKey)) {
       throw profile->root().error(kProfileKey, "a profile builds on no other", "[sections] only");
     }
-    lay(sections_, [&](Sections& sections) { sections.apply(*profile); });
+    lay(sections_, [&](Sections& sections) { applyFile(sections, *profile); });
   }
-  if (site) lay(sections_, [&](Sections& sections) { sections.apply(site->document); });
+  if (site) lay(sections_, [&](Sections& sections) { applyFile(sections, site->document); });
   lay(sections_, [&](Sections& sections) { applyEnvironment(sections, request.environment); });
   lay(sections_, [&](Sections& sections) { applyCommandLine(sections, request); });
   checkLatency(sections_);

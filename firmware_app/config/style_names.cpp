@@ -68,9 +68,10 @@ Names styleNames() {
   return names;
 }
 
-std::string foundStyle(const std::string& name) {
+std::string foundStyle(const std::string& name, std::string_view look) {
   if (const std::string style = styleWith(name, looksOf); !style.empty()) {
-    return fmt::format("{} (a look of {}: --look {})", config::quoted(name), style, name);
+    return fmt::format("{} (a look of {}: {})", config::quoted(name), style,
+                       fmt::format(fmt::runtime(look), name));
   }
   return config::foundText(name, styleNames());
 }

@@ -137,6 +137,17 @@ TEST_F(ConfigurationTest, RefusesWhatIsNoTomlOrTooMuchOfIt) {
   EXPECT_THAT(refused(std::string((1 << 20) + 1, '#')), HasSubstr("too large"));
 }
 
+TEST_F(ConfigurationTest, TellsWhereALookIsGivenForAStyle) {
+  request_.siteFile = write("site.toml", "[painting]\nstyle = \"oil\"\n");
+  EXPECT_THAT(refusal(), HasSubstr("site.toml:2: painting.style: found \"oil\" (a look of "
+                                   "painterly: look = \"oil\"), allowed: one of "));
+  request_.siteFile = write("site.toml", "[painting]\nstyle = \"painterli\"\n");
+  EXPECT_THAT(refusal(), HasSubstr("did you mean \"painterly\"?"));
+  request_.siteFile = write("site.toml", "style = \"painterly\"\n");
+  EXPECT_THAT(refusal(), HasSubstr("site.toml:1: style: is the table of styles' parameters, "
+                                   "allowed: its name as style in [painting]"));
+}
+
 TEST_F(ConfigurationTest, NothingUnknownIsSkipped) {
   const auto refused = [&](const std::string& text) {
     request_.siteFile = write("s.toml", text);
