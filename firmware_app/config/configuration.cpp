@@ -148,30 +148,36 @@ void chooseStyleOfLook(Sections& sections, const Sections& before) {
   sections.apply(kStyleKey, style, place);
 }
 
-/// A look is easily taken for a style: "oil".
-void refuseUnknownStyle(const OptionValue& option) {
+bool isStyle(const std::string& name) {
   const std::vector<std::string> names = styleNames();
-  if (std::ranges::find(names, option.text) != names.end()) return;
-  throw ConfigError({.file = option.option,
-                     .found = foundStyle(option.text, "--look {}"),
-                     .allowed = "one of " + config::listText(names)});
+  return std::ranges::find(names, name) != names.end();
 }
 
-/// The same of a file, where the style's name is easily given for its parameters, too.
+std::string allowedStyles() {
+  return "one of " + config::listText(styleNames());
+}
+
+/// Users take a look for a style: "oil".
+void refuseUnknownStyle(const OptionValue& option) {
+  if (isStyle(option.text)) return;
+  throw ConfigError({.file = option.option,
+                     .found = foundStyle(option.text, "--look {}"),
+                     .allowed = allowedStyles()});
+}
+
+/// Lays a file over the sections. Refuses a look in place of a style, and a style's name in place
+/// of the table of its parameters, with the key that either is given by.
 void applyFile(Sections& sections, const TomlDocument& document) {
   const config::TomlTable& root = document.root();
-  const std::vector<std::string> names = styleNames();
   if (root.isString("style")) {
-    throw root.error("style", "is the table of styles' parameters",
-                     "its name as style in [painting]");
+    throw root.error("style", "is the table of the styles' parameters",
+                     "style = " + config::quoted(root.string("style")) + " in [painting]");
   }
   const auto painting = root.isTable("painting") ? root.optionalTable("painting") : std::nullopt;
-  if (painting && painting->isString("style")) {
-    const std::string style = painting->string("style");
-    if (std::ranges::find(names, style) == names.end()) {
-      throw painting->error("style", "found " + foundStyle(style, "look = \"{}\""),
-                            "one of " + config::listText(names));
-    }
+  if (painting && painting->isString("style") && !isStyle(painting->string("style"))) {
+    throw painting->error("style",
+                          "found " + foundStyle(painting->string("style"), "look = \"{}\""),
+                          allowedStyles());
   }
   sections.apply(document);
 }

@@ -44,7 +44,7 @@ Violations texturesRule(const ShaderText& shader);
 /// No loop with a constant bound that a break cuts short (rule 19).
 Violations loopBoundsRule(const ShaderText& shader);
 
-/// What runs over a list of blocks returns beyond it before anything else (rule 27).
+/// A program that runs over a list of blocks returns beyond its end before anything else (rule 27).
 Violations listEndRule(const ShaderText& shader);
 
 /// All rules above.

@@ -144,8 +144,8 @@ TEST_F(ConfigurationTest, TellsWhereALookIsGivenForAStyle) {
   request_.siteFile = write("site.toml", "[painting]\nstyle = \"painterli\"\n");
   EXPECT_THAT(refusal(), HasSubstr("did you mean \"painterly\"?"));
   request_.siteFile = write("site.toml", "style = \"painterly\"\n");
-  EXPECT_THAT(refusal(), HasSubstr("site.toml:1: style: is the table of styles' parameters, "
-                                   "allowed: its name as style in [painting]"));
+  EXPECT_THAT(refusal(), HasSubstr("site.toml:1: style: is the table of the styles' parameters, "
+                                   "allowed: style = \"painterly\" in [painting]"));
 }
 
 TEST_F(ConfigurationTest, NothingUnknownIsSkipped) {
