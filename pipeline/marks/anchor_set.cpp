@@ -32,7 +32,10 @@ glm::ivec2 gridOf(hal::FrameSize full, int cellPixels) {
 /// Slots for every cell, including those beyond the border, at a density halfway between target and
 /// deathAbove, for the anchors that fade out, and for those that other content covers.
 std::uint32_t slotsFor(glm::ivec2 grid, const DensityRule& rule) {
-  const int twice = (grid.x + 2) * (grid.y + 2) * (rule.target + rule.deathAbove);
+  const float factor = 0.5F * (1.0F + rule.detailFactor);  // half of the image is full of detail
+  const int cells = (grid.x + 2) * (grid.y + 2);
+  const int twice =
+      static_cast<int>(factor * static_cast<float>(cells * (rule.target + rule.deathAbove)));
   const int fading = twice / 10;
   const int covered = twice / 4;
   return static_cast<std::uint32_t>((twice + fading + covered + 1) / 2);
@@ -225,6 +228,7 @@ void AnchorSet::State::countAnchors(const scene::ArFrame& frame, const AnchorHol
 void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionField& motion,
                                    const AnchorHold& hold) {
   const DensityRule& rule = options.density;
+  const std::size_t detailLevel = field != nullptr ? field->detailLevel() : 0;
   setFrame(beginCells(density), frame)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("objectBounds", frame.objectBoundsOrAll())
@@ -232,6 +236,12 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .storage("Cells", cells)
       .texture("movers", layerTextures.labelsOf(layers))
       .texture("forms", frame.hasObjects ? *frame.forms : noIds)
+      .texture("detailField", field != nullptr ? field->resolved(detailLevel) : motion.backward())
+      .set("detailScale", field != nullptr ? field->textureScale(detailLevel) : glm::vec2(1.0F))
+      .texture("moverField", field != nullptr ? field->movers() : motion.backward())
+      .set("moverScale", field != nullptr ? field->textureScale(0) : glm::vec2(1.0F))
+      .set("detailFactor", field != nullptr ? rule.detailFactor : 1.0F)
+      .set("detailRange", rule.detailRange)
       .set("target", rule.target)
       .set("birthBelow", hold.hasSlack ? rule.birthBelow : rule.target)
       .set("deathAbove", hold.hasSlack ? rule.deathAbove : rule.target)
@@ -264,6 +274,8 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .set("focalPx", hasDepth ? focalOf(frame).y : 1.0F)
       .set("scale", static_cast<float>(scaleOctaves))
       .set("target", rule.target)
+      .texture("picture", frame.colour != nullptr ? *frame.colour : motion.backward())
+      .set("accentPixels", frame.colour != nullptr ? options.accentPixels : 0.0F)
       .storage("Anchors", anchors)
       .storage("Cells", cells)
       .storage("Plan", births)

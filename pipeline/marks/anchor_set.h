@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include "hal/clock.h"
 #include "hal/pixel_format.h"
 #include "pipeline/gpu/buffer.h"
@@ -26,11 +28,19 @@ struct DensityRule {
   int target = 2;
   int birthBelow = 1;
   int deathAbove = 4;
+  /// Marks are cut short where there is much detail: in the camera's image, the three numbers above
+  /// are multiplied there, by 1 up to the first of `detailRange` (TensorField::resolved), by this
+  /// from the second on.
+  float detailFactor = 1.0F;
+  glm::vec2 detailRange{0.0F, 1.0F};
 };
 
 struct AnchorOptions {
   DensityRule density;
   unsigned seed = 1;  ///< seeds all random numbers
+  /// px of the full image: births in the camera's image prefer what is narrower, which chance would
+  /// often miss; 0: they do not
+  float accentPixels = 0.0F;
 };
 
 /// How anchors persist from frame to frame; may change with each frame.
@@ -48,7 +58,8 @@ struct AnchorHold {
   /// styles that clip their marks there. If false, they fade out.
   bool underModels = false;
   bool hasSlack = true;  ///< hysteresis of DensityRule; if false, density is kept at the target
-  /// the same on movers; if false, density is kept at their share of the target, but for two anchors
+  /// the same on movers; if false, density is kept at their share of the target, but for two
+  /// anchors
   bool hasMoverSlack = true;
 };
 

@@ -24,9 +24,6 @@ constexpr glm::ivec2 kArms{2, 4};         // of a stroke; segments of each
 // The bits of labels in borders (shaders/stroke_label.glsl) and in forms (surface_form.glsl).
 constexpr unsigned kBorderLabels = 8191;
 constexpr unsigned kFormLabels = 4095;
-// the level of the field whose detail decides where a layer is painted
-constexpr std::size_t kDetailLevel = 1;
-
 // The commands that trace each list (shaders/stroke_lists.glsl), in bytes, and their words before
 // anything is listed.
 constexpr std::size_t kOnModels = 0;
@@ -106,12 +103,6 @@ float focalOf(const scene::SurfaceAccess& surfaces, const scene::ArFrame& frame)
   return static_cast<float>(surfaces.camera->intrinsics().fy / frame.pixelsOfFull().y);
 }
 
-/// Scale from px of the full image to texture coordinates of a field's level.
-glm::vec2 scaleOf(const TensorField& field, std::size_t level) {
-  const hal::FrameSize size = field.resolved(level).size();
-  return glm::vec2(1.0 / (field.regionPixels(level) * glm::dvec2(size.width, size.height)));
-}
-
 }  // namespace
 
 void StrokeSet::State::carryWithObjects(const scene::ArFrame& frame, const AnchorSet& anchors,
@@ -175,7 +166,7 @@ void StrokeSet::State::traceListed(gpu::Program& program, std::size_t groups,
   };
   const std::size_t level = std::min(rule.fieldLevel, field.levelCount() - 1);
   const bool hasDepth = frame.hasObjects && frame.depth != nullptr;
-  const std::size_t detail = std::min(kDetailLevel, field.levelCount() - 1);
+  const std::size_t detail = field.detailLevel();
   program.use()
       .storage("Anchors", anchors.anchors())
       .storage("Strokes", strokes)
@@ -206,9 +197,9 @@ void StrokeSet::State::traceListed(gpu::Program& program, std::size_t groups,
       .set("anew", anchors.hasBegunAnew() ? 1 : 0)
       .set("fullSize", glm::vec2(frame.full().width, frame.full().height))
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
-      .set("fieldScale", scaleOf(field, level))
-      .set("detailScale", scaleOf(field, detail))
-      .set("moverScale", scaleOf(field, 0))
+      .set("fieldScale", field.textureScale(level))
+      .set("detailScale", field.textureScale(detail))
+      .set("moverScale", field.textureScale(0))
       .set("slots", slots)
       .set("segment", rule.segmentPx)
       .set("steps", rule.steps)
@@ -237,6 +228,7 @@ void StrokeSet::State::traceListed(gpu::Program& program, std::size_t groups,
       .set("imageScale", static_cast<float>(anchors.imageScale()))
       .set("focalPx", frame.surfaces ? focalOf(*frame.surfaces, frame) : 0.0F)
       .set("layer", glm::vec2(rule.layer, rule.layers));
+  if (program.hasUniform("beside")) program.set("beside", rule.besidePx);
   if (program.hasUniform("hasSegments")) program.set("hasSegments", borders != nullptr ? 1 : 0);
   rule.focus.bind(program);
   program.dispatchListed(lists, groups, program.groupsFor({static_cast<int>(slots), 1}),

@@ -34,8 +34,11 @@ struct StrokeRule {
   /// the same before a standing camera, below 1; there, strokes that do not exist yet must lie
   /// within the band by half of it
   float restSlack = 0.6F;
-  float wanderRad = 0.1F;      ///< largest deviation of a stroke from the field
-  bool bothWays = true;        ///< false: only ahead of the anchor, as in the thesis
+  float wanderRad = 0.1F;  ///< largest deviation of a stroke from the field
+  bool bothWays = true;    ///< false: only ahead of the anchor, as in the thesis
+  /// from a stroke's middle to what is beside it: strokes lean away from other colours there, and
+  /// those that have them on both sides lie over the others of the layer; 0: neither
+  float besidePx = 0.0F;
   std::size_t fieldLevel = 0;  ///< level of the tensor field; at most its last
   float widthPx = 8.0F;
   float widthSpread = 0.2F;  ///< random part of the width, ±

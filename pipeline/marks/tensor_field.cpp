@@ -276,6 +276,15 @@ double TensorField::regionPixels(std::size_t level) const {
   return std::ldexp(kRegionPixels, static_cast<int>(level));
 }
 
+glm::vec2 TensorField::textureScale(std::size_t level) const {
+  const hal::FrameSize size = resolved(level).size();
+  return glm::vec2(1.0 / (regionPixels(level) * glm::dvec2(size.width, size.height)));
+}
+
+std::size_t TensorField::detailLevel() const {
+  return std::min<std::size_t>(1, levelCount() - 1);
+}
+
 void TensorField::reset() {
   state_->hasPast = false;
 }

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <memory>
 
+#include <glm/vec2.hpp>
+
 #include "hal/clock.h"
 #include "hal/pixel_format.h"
 #include "pipeline/gpu/shader_library.h"
@@ -73,6 +75,10 @@ class TensorField {
   const gpu::Texture* patchesBefore() const;
   /// Side of a region on a level, px of the full image.
   double regionPixels(std::size_t level) const;
+  /// Scale from px of the full image to texture coordinates of a level.
+  glm::vec2 textureScale(std::size_t level) const;
+  /// The level whose detail decides how finely a place is painted.
+  std::size_t detailLevel() const;
 
   /// Forgets the past.
   void reset();

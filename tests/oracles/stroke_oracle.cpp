@@ -19,6 +19,20 @@ glm::dvec2 onward(glm::dvec2 direction, glm::dvec2 heading) {
   return glm::dot(direction, heading) < 0.0 ? -direction : direction;
 }
 
+/// The direction of a step that leans away from the side whose colour differs more.
+glm::dvec2 leaned(const StrokeGround& ground, const StrokeWalk& walk, glm::dvec2 at,
+                  glm::dvec2 direction, glm::dvec3 colour) {
+  constexpr double kReach = 0.45;
+  constexpr double kLean = 4.0;
+  constexpr double kMost = 0.7;
+  const glm::dvec2 arm = kReach * walk.besidePx * glm::dvec2(-direction.y, direction.x);
+  const glm::dvec2 to = at + walk.segmentPx * direction;
+  const double left = colourDifference(ground.colourAt(to + arm), colour);
+  const double right = colourDifference(ground.colourAt(to - arm), colour);
+  const double lean = std::clamp(kLean * (right - left), -kMost, kMost);
+  return glm::normalize(walk.segmentPx * direction + lean * arm);
+}
+
 }  // namespace
 
 glm::dvec2 strokeDirection(glm::dvec2 tensor) {
@@ -56,13 +70,14 @@ StrokeArm strokeArm(const StrokeGround& ground, const StrokeWalk& walk, glm::dve
   glm::dvec2 at = anchor;
   for (int i = 0; i < walk.steps; ++i) {
     const glm::dvec2 halfOn = at + 0.5 * walk.segmentPx * heading;
-    const glm::dvec2 direction = onward(strokeDirection(ground.tensorAt(halfOn)), heading);
+    glm::dvec2 direction = onward(strokeDirection(ground.tensorAt(halfOn)), heading);
     const double turn = angleOf(direction, heading);
     if (i > 0) arm.nearestToCutOff = std::min(arm.nearestToCutOff, std::abs(turn - walk.cutOffRad));
     if (!hasEnded && i > 0 && turn > walk.cutOffRad) {
       arm.length = i;
       hasEnded = true;
     }
+    direction = leaned(ground, walk, at, direction, start);
     at += walk.segmentPx * direction;
     const double difference = colourDifference(ground.colourAt(at), start);
     if (!hasEnded && difference > walk.colourThreshold) {

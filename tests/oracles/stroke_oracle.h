@@ -22,6 +22,7 @@ struct StrokeWalk {
   double minSteps = 0.0;
   double colourThreshold = 0.1;
   double cutOffRad = 0.8;
+  double besidePx = 0.0;  ///< the product's: steps lean away from other colours beside them
 };
 
 /// The direction along the edge: the gradient's direction and a quarter turn. A unit vector; its

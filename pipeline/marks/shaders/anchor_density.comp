@@ -1,7 +1,10 @@
 // Purpose: controls the density of anchors in a cell: the number of spawns, the anchor to remove and
 //          the dormant one to wake (thesis §5.3, with hysteresis).
 // Inputs:  anchor_cells.glsl's; the rule (marks::DensityRule): target, birthBelow, deathAbove: on
-//          movers only if hasMoverSlack, else the target holds there; ids and forms (ArFrame) and
+//          movers only if hasMoverSlack, else the target holds there; detailField and moverField
+//          (TensorField), each with its scale, px of the full image to texture coordinates, and
+//          detailRange, from and up to which their detail multiplies the rule's numbers, by
+//          detailFactor at most; ids and forms (ArFrame) and
 //          their pixelsOfFull if hasObjects, within objectBounds; fullSize; mover_labels.glsl's.
 //          Anchors of the background and of movers are counted apart; each patch of a model that
 //          shows enough of itself gets one at least; joints count less.
@@ -25,6 +28,12 @@ uniform int target;
 uniform int birthBelow;
 uniform int deathAbove;
 uniform bool hasMoverSlack;
+uniform highp sampler2D detailField;
+uniform vec2 detailScale;
+uniform highp sampler2D moverField;
+uniform vec2 moverScale;
+uniform float detailFactor;
+uniform vec2 detailRange;
 #include "pipeline/marks/shaders/mover_labels.glsl"
 
 const float kMinShare = 0.12;  // of a cell: a smaller part gets no anchor of its own
@@ -97,9 +106,18 @@ float moverShare(ivec2 cell) {
   return sum / 9.0;
 }
 
+// By which factor a cell's numbers are larger for what detail it has: X: of the background, Y: of
+// movers.
+vec2 factorsOf(ivec2 cell) {
+  vec2 px = (vec2(cell) + 0.5) * float(cellPixels);
+  vec2 detail = vec2(textureLod(detailField, px * detailScale, 0.0).w,
+                     textureLod(moverField, px * moverScale, 0.0).w);
+  return mix(vec2(1.0), vec2(detailFactor), smoothstep(vec2(detailRange.x), vec2(detailRange.y), detail));
+}
+
 // Whether the surrounding cells hold their target. An empty cell among them is then a gap by
 // chance, and filling it would crowd them later.
-bool isAmongFull(ivec2 cell) {
+bool isAmongFull(ivec2 cell, float factor) {
   uint around = 0u;
   for (int y = -1; y <= 1; ++y) {
     for (int x = -1; x <= 1; ++x) {
@@ -107,7 +125,7 @@ bool isAmongFull(ivec2 cell) {
       if (isInGrid(at)) around += cells[indexOf(at)].inImage + cells[indexOf(at)].onObjects;
     }
   }
-  return around >= 8u * uint(target);
+  return float(around) >= 8.0 * factor * float(target);
 }
 
 // The patches that have anchors in the cell or beside it, whose strokes reach into it.
@@ -150,30 +168,32 @@ void main() {
   Cell cell = cells[index];
   Objects objects = Objects(0.0, 0u, 0u);
   if (hasObjects) objects = objectsIn(at, paintedAround(at));
+  vec2 factors = factorsOf(at);
   // Each further patch may have an anchor of its own; room for it is made at its birth, so that no
   // other one has to go in the next frame.
   uint more = max(objects.patches, 1u) - 1u;
-  if (cell.inImage + cell.onObjects + objects.unpainted > uint(deathAbove) + more) {
+  uint most = uint(mix(factors.x, 1.0, objects.share) * float(deathAbove));
+  if (cell.inImage + cell.onObjects + objects.unpainted > most + more) {
     // Of the two kinds, the one that has more of its share.
     float ofObjects = float(cell.onObjects + objects.unpainted) * (1.0 - objects.share);
     bool isObject = cell.nextInImage == 0u ||
                     (cell.nextOnObjects != 0u && ofObjects >= float(cell.inImage) * objects.share);
     anchors[slotOf(isObject ? cell.nextOnObjects : cell.nextInImage)].state |= kDying;
   }
-  if (cell.underModels > 0u && cell.inImage + cell.underModels > uint(deathAbove)) {
+  if (cell.underModels > 0u && cell.inImage + cell.underModels > uint(factors.x * float(deathAbove))) {
     anchors[slotOf(cell.nextUnderModels)].state |= kDying;
   }
   float moving = moverShare(at);
   uint mostOnMovers =
-      uint(hasMoverSlack ? float(deathAbove) : floor(moving * float(target) + 2.5));
+      uint(hasMoverSlack ? factors.y * float(deathAbove) : floor(moving * float(target) + 2.5));
   if (cell.onMovers > mostOnMovers) anchors[slotOf(cell.nextOnMovers)].state |= kDying;
   // Border cells may be cut off.
   vec2 inside = clamp((fullSize - vec2(at * cellPixels)) / float(cellPixels), 0.0, 1.0);
   float whole = inside.x * inside.y;
   float share = objects.share;
-  bool isGap = isAmongFull(at);
+  bool isGap = isAmongFull(at, factors.x);
   // The strokes of those under models reach beyond them.
-  uint inImage = wanted(whole * (1.0 - share), cell.inImage + cell.underModels, isGap, false);
+  uint inImage = wanted(factors.x * whole * (1.0 - share), cell.inImage + cell.underModels, isGap, false);
   uint onObjects = wanted(whole * share, cell.onObjects, isGap, false);
   // A stroke paints its own patch only.
   uint onPatches = min(objects.unpainted, 255u);
@@ -189,5 +209,5 @@ void main() {
   onPatches -= waking;
   onObjects -= min(onObjects, sleeping - waking);
   cells[index].births = inImage | min(onObjects, 255u) << 16u | onPatches << 24u;
-  cells[index].moverBirths = wanted(whole * moving, cell.onMovers, false, !hasMoverSlack);
+  cells[index].moverBirths = wanted(factors.y * whole * moving, cell.onMovers, false, !hasMoverSlack);
 }

@@ -7,13 +7,16 @@
 //          scale: of the image, in octaves; depth and depthRange, near and far in metres, 0: no depth;
 //          focalPx: of the full image; motion: MotionField's field; forms, surfaceMotion
 //          (ArFrame), patches, patchesBefore: TensorField's, with patchPixels a side, if
-//          hasPatches; mover_labels.glsl's, mover_shares.glsl's.
+//          hasPatches; mover_labels.glsl's, mover_shares.glsl's; picture (ArFrame::colour, LINEAR),
+//          accentPixels: births in the camera's image prefer what is narrower, px of the full image,
+//          0: they do not.
 // Outputs: anchors; counts cleared for the next frame. One invocation per cell.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"
 #include "pipeline/marks/shaders/anchor_slots.glsl"
+#include "pipeline/marks/shaders/colour_difference.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) buffer Anchors { Anchor anchors[]; };
@@ -37,6 +40,8 @@ uniform vec2 depthRange;
 uniform float focalPx;
 uniform float scale;
 uniform int target;
+uniform highp sampler2D picture;
+uniform float accentPixels;
 #include "pipeline/scene/render/shaders/surface_form.glsl"
 
 #include "pipeline/marks/shaders/mover_labels.glsl"
@@ -44,6 +49,8 @@ uniform int target;
 
 const int kScan = 8;  // places along a cell's side
 const int kTries = 6;  // attempts in one part of the cell, then as many in the whole cell
+const int kAccentTries = 8;  // before these, in that part, to find something narrow
+const float kAccentColour = 0.11;  // as of strokes: stroke_trace.comp
 
 ivec2 pixelAt(vec2 px) {
   return clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(ids, 0) - 1);
@@ -131,6 +138,25 @@ uint rankOfBirth(ivec2 cell, uint before, float octaves) {
   return rankAt(octaves + 0.5 * log2(part));
 }
 
+// The mean of four pixels of the camera's image: noise of one of them is nothing narrow.
+vec3 pictureAt(vec2 px) {
+  return textureLod(picture, round(px * pixelsOfFull) / vec2(textureSize(picture, 0)), 0.0).rgb;
+}
+
+// Whether the camera's image shows something narrow there, of another colour than what is on both
+// sides of it.
+bool isOnAccent(vec2 px) {
+  vec3 own = pictureAt(px);
+  float most = 0.0;
+  for (int i = 0; i < 2; ++i) {
+    vec2 arm = accentPixels * vec2(1 - i, i);
+    vec3 low = pictureAt(px - arm);
+    vec3 high = pictureAt(px + arm);
+    most = max(most, min(apart(low, own), apart(high, own)));
+  }
+  return most > kAccentColour;
+}
+
 // `patchesTaken`: those that the anchor is not to lie on; its own is added.
 // `before`: how many anchors of its kind the cell has.
 void spawn(ivec2 cell, uint number, uint before, bool onObject, bool onMover, inout uint taken,
@@ -145,7 +171,8 @@ void spawn(ivec2 cell, uint number, uint before, bool onObject, bool onMover, in
   vec2 mover = vec2(0.0);
   bool isFound = false;
   int scanned = patchesTaken != 0u ? kScan * kScan : 0;
-  for (int i = 0; i < 2 * kTries + scanned && !isFound; ++i) {
+  int accents = onObject || onMover || accentPixels <= 0.0 ? 0 : kAccentTries;
+  for (int i = -accents; i < 2 * kTries + scanned && !isFound; ++i) {
     hash = hashOf(hash);
     vec2 jitter = vec2(unitOf(hash), unitOf(hashOf(hash)));
     vec2 inCell = i < kTries ? (corner + 0.1 + 0.8 * jitter) / float(strataSide) : jitter;
@@ -161,6 +188,7 @@ void spawn(ivec2 cell, uint number, uint before, bool onObject, bool onMover, in
     bool isMover = !isVirtual(objectOf(id)) && mover.r > 0.5;
     isFound = isVirtual(objectOf(id)) == onObject && isMover == onMover &&
               !(onObject && (patchesTaken & patchBit(labelAt(px))) != 0u);
+    if (i < 0) isFound = isFound && isOnAccent(px);
   }
   if (!isFound) return;
   if (onObject) patchesTaken |= patchBit(labelAt(px));

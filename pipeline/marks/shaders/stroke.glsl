@@ -5,6 +5,7 @@
 const int kArm = 4;  // segments on each side of the anchor
 
 const uint kWanted = 0x80000000u;  // `exists` is to be 1; with hysteresis
+const uint kAccent = 0x40000000u;  // lies over what is of another colour on both sides of it
 
 struct Stroke {
   vec2 ways[2 * kArm];  // directions: of the arm ahead of the anchor, then of the one behind it

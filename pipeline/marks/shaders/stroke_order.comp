@@ -1,5 +1,6 @@
-// Purpose: the painting order of the visible strokes. It never changes during their lives and does
-//          not depend on their places. A single work group.
+// Purpose: the painting order of the visible strokes: accents after all others, and among each other
+//          in an order that never changes during their lives and does not depend on their places. A
+//          single work group.
 // Inputs:  strokes, slots of them; stride: coprime to slots; vertices of each.
 // Outputs: ranks: of each slot, or none; command: glDrawArraysIndirect's.
 // Precision: integers.
@@ -15,31 +16,39 @@ uniform uint vertices;
 
 const float kMinSeen = 0.004;
 
-shared uint seenBefore[128];
+shared uvec2 seenBefore[128];  // accents apart
 
 uint slotAt(uint place) { return (place * stride) % slots; }
+
+// 1 in X for a stroke, in Y for an accent; 0 for what is not seen.
+uvec2 isSeen(uint slot) {
+  if (strokes[slot].seen <= kMinSeen) return uvec2(0u);
+  bool isAccent = (strokes[slot].state & kAccent) != 0u;
+  return uvec2(isAccent ? 0u : 1u, isAccent ? 1u : 0u);
+}
 
 void main() {
   uint me = gl_LocalInvocationID.x;
   uint each = (slots + 127u) / 128u;
   uint first = min(me * each, slots);
   uint end = min(first + each, slots);
-  uint seen = 0u;
-  for (uint i = first; i < end; ++i) seen += strokes[slotAt(i)].seen > kMinSeen ? 1u : 0u;
+  uvec2 seen = uvec2(0u);
+  for (uint i = first; i < end; ++i) seen += isSeen(slotAt(i));
   seenBefore[me] = seen;
   barrier();
   for (uint reach = 1u; reach < 128u; reach *= 2u) {
-    uint there = me >= reach ? seenBefore[me - reach] : 0u;
+    uvec2 there = me >= reach ? seenBefore[me - reach] : uvec2(0u);
     barrier();
     seenBefore[me] += there;
     barrier();
   }
-  if (me == 127u) command = DrawCommand(vertices, seenBefore[127], 0u, 0u);
-  uint rank = seenBefore[me] - seen;
+  uvec2 all = seenBefore[127];
+  if (me == 127u) command = DrawCommand(vertices, all.x + all.y, 0u, 0u);
+  uvec2 rank = seenBefore[me] - seen + uvec2(0u, all.x);
   for (uint i = first; i < end; ++i) {
     uint slot = slotAt(i);
-    bool isSeen = strokes[slot].seen > kMinSeen;
-    ranks[slot] = isSeen ? rank : 0xFFFFFFFFu;
-    rank += isSeen ? 1u : 0u;
+    uvec2 one = isSeen(slot);
+    ranks[slot] = one == uvec2(0u) ? 0xFFFFFFFFu : one.x * rank.x + one.y * rank.y;
+    rank += one;
   }
 }

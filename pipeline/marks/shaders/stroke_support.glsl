@@ -65,9 +65,13 @@ struct Support {
   bool isMixed;  // the reduced image mixes its colours with those of what is beside it
   bool isOnMover;
   int mover;  // its number
-  float looseness;  // how much looser it is painted, in [0, 1]
-  vec2 along;       // a tensor, of strokes along the mover's motion
 };
+
+// Of each invocation: how much looser its mover is painted, in [0, 1], and a tensor, of strokes along
+// the mover's motion. In registers, they would leave none to the walk.
+const int kWalkers = 64;
+shared vec3 loose[kWalkers];
+vec3 looseOf() { return mayBeOnMover ? loose[gl_LocalInvocationIndex] : vec3(0.0, kUpright); }
 
 ivec2 pixelAt(vec2 px) {
   return clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(labels, 0) - 1);
@@ -100,15 +104,17 @@ bool isMixedAt(vec2 px, uint label, bool hasOthers) {
 
 Support supportOf(uint label, bool isOnMover, vec2 px) {
   int mover = isOnMover ? moverOfLabel(label) : 1;
-  Support on = Support(label, false, isOnMover, mover, 0.0, kUpright);
+  Support on = Support(label, false, isOnMover, mover);
   bool hasOthers = isModel || (hasSegments && !isOnMover && label != 0u);
   on.isMixed = isOnMover ? clips && isNearAnother(px, mover, 2.0 * paintTexel)
                          : isMixedAt(px, label, clips && hasOthers);
+  if (mayBeOnMover) loose[gl_LocalInvocationIndex] = vec3(0.0, kUpright);
   vec2 moved;
   if (!isOnMover || looseness <= 0.0 || !findMoverMotion(px, mover, moved)) return on;
-  on.looseness = looseness * smoothstep(loosePx.x, max(loosePx.y, loosePx.x + 1e-3), length(moved));
-  on.along = vec2(moved.y * moved.y - moved.x * moved.x, -2.0 * moved.x * moved.y) /
-             max(dot(moved, moved), 1e-6);
+  vec2 along = vec2(moved.y * moved.y - moved.x * moved.x, -2.0 * moved.x * moved.y) /
+               max(dot(moved, moved), 1e-6);
+  float looser = smoothstep(loosePx.x, max(loosePx.y, loosePx.x + 1e-3), length(moved));
+  loose[gl_LocalInvocationIndex] = vec3(looseness * looser, along);
   return on;
 }
 
@@ -123,7 +129,8 @@ vec2 directionAt(vec2 px, Support on) {
     tensor = textureLod(field, px * fieldScale, 0.0).xy;
   }
   tensor *= inversesqrt(max(dot(tensor, tensor), 1e-12));
-  tensor = mix(tensor, on.along, 0.8 * on.looseness);
+  vec3 looser = looseOf();
+  tensor = mix(tensor, looser.yz, 0.8 * looser.x);
   tensor *= inversesqrt(max(dot(tensor, tensor), 1e-12));
   // Half the angle by square roots; the stroke runs across the gradient.
   vec2 gradient = vec2(sqrt(max(0.0, 0.5 + 0.5 * tensor.x)), sqrt(max(0.0, 0.5 - 0.5 * tensor.x)));
@@ -181,5 +188,5 @@ float detailAt(vec2 px, Support on) {
   }
   float detail = on.isOnMover ? textureLod(moverField, px * moverScale, 0.0).w
                               : textureLod(detailField, px * detailScale, 0.0).w;
-  return mix(1.0, kLooseDetail, on.looseness) * detail;
+  return mix(1.0, kLooseDetail, looseOf().x) * detail;
 }

@@ -43,8 +43,14 @@ uniform float imageScale;
 uniform float focalPx;
 uniform vec2 layer;
 
+// The difference of colour from which a stroke is an accent, remains one, and before a standing camera.
+const float kNewAccent = 0.11;
+const float kRemainingAccent = 0.06;
+const float kRestingAccent = 0.03;
+
 const int kList = isModel ? kOnModels : mayBeOnMover ? kMoversOnly : kWithLabels;
 const float kFocusDetail = 1.0;  // how much more detail counts in a focus
+const float kAccentDetail = 2.0;  // and under an accent
 
 // The label of the anchor's triangle: that of its pixel, or of the one beside it that shows the
 // triangle.
@@ -207,7 +213,8 @@ bool isWanted(uint slot, vec2 px, float seen, bool isResting, bool isNew) {
   float hash = unitOf(hashOf(anchors[slot].seed ^ 0x51u));
   // A stroke is wanted where the detail lies in its band; an existing one stays a little longer.
   float focused = focusStrength * focusAt(px);
-  float detail = (1.0 + kFocusDetail * focused) * seen + detailSpread * (hash - 0.5);
+  float more = kFocusDetail * focused + ((strokes[slot].state & kAccent) != 0u ? kAccentDetail : 0.0);
+  float detail = (1.0 + more) * seen + detailSpread * (hash - 0.5);
   bool was = !isNew && (strokes[slot].state & kWanted) != 0u;
   float wider = was ? 1.0 - (isResting ? restSlack : slack) : isResting ? 1.0 + 0.5 * restSlack : 1.0;
   bool wanted = detail >= detailBand.x * wider && detail <= detailBand.y / wider;
@@ -222,6 +229,17 @@ bool isWanted(uint slot, vec2 px, float seen, bool isResting, bool isNew) {
     wanted = wanted && isAmong(layerShare(fineness, layer.x, layer.y), part, was);
   }
   return wanted;
+}
+
+// Marks a stroke that depicts something as narrow as itself: an accent, which is painted over the
+// others of its layer, since those beside it would hide it.
+void markAccent(uint slot, vec2 px, vec2 heading, bool isNew) {
+  vec2 arm = beside * vec2(-heading.y, heading.x);
+  float unlike = 1e9;
+  for (int i = 0; i < arms.x; ++i) unlike = min(unlike, unlikeAt(px + (i == 0 ? arm : -arm)));
+  bool was = !isNew && (strokes[slot].state & kAccent) != 0u;
+  float least = was ? (isStanding ? kRestingAccent : kRemainingAccent) : kNewAccent;
+  strokes[slot].state = (strokes[slot].state & ~kAccent) | (unlike > least ? kAccent : 0u);
 }
 
 // What is read again, of anchors and strokes, is not kept in registers through the walk.
@@ -263,7 +281,8 @@ void main() {
     vec2 was = jacobian.xy * strokes[slot].ways[0].x + jacobian.zw * strokes[slot].ways[0].y;
     if (dot(was, heading) < 0.0) heading = -heading;
   }
-  walks[gl_LocalInvocationIndex] = Walk(own, seen, heading, hand);
+  walks[gl_LocalInvocationIndex] = Walk(own, seen, heading, hand, isNew);
+  if (!isModel) markAccent(slot, px, heading, isNew);
   memoryBarrierShared();  // or compilers keep what they have just stored
   memoryBarrierBuffer();
   for (int side = 0; side < arms.x; ++side) {
@@ -274,6 +293,7 @@ void main() {
   px = anchors[slot].px;
   seen = walks[gl_LocalInvocationIndex].detail;
   heading = walks[gl_LocalInvocationIndex].heading;
+  isNew = walks[gl_LocalInvocationIndex].isNew;
   own = walks[gl_LocalInvocationIndex].colour;
   Arm ahead = walked[gl_LocalInvocationIndex];
   Arm behind = walked[kWalkers + int(gl_LocalInvocationIndex)];
@@ -295,7 +315,7 @@ void main() {
   float stays = isOnMover ? past.x : pow(past.x, hold);
   vec3 change = colour - strokes[slot].colour;
   float changed = isNew ? 0.0 : smoothstep(otherColour.x, otherColour.y, weightedLength(change));
-  uint now = label | (wanted ? kWanted : 0u);
+  uint now = label | (wanted ? kWanted : 0u) | (strokes[slot].state & kAccent);
   if (isModel && !isNew) now = withGirth(now, mix(1.0, girthOf(strokes[slot].state), past.x));
   strokes[slot].state = now;
   storeWays(slot, heading, isModel, stays, !isNew && changed < 0.5);

@@ -4,8 +4,9 @@
 // Inputs:  stroke_support.glsl's; depth (ArFrame), ON_MODELS; objectBounds; segment: the
 //          length of a step, px of the full image; steps: of an arm, at most kArm; minSteps: of one
 //          that detail or colour ends; colourThreshold; cutOff: cosine of the sharpest turn;
-//          detailBand: the detail in which the layer is painted; arms: 2, of kArm steps each, a
-//          uniform, so that compilers keep the loops; a group of kWalkers invocations.
+//          beside: from a stroke's middle to what is beside it, px of the full image; detailBand: the
+//          detail in which the layer is painted; arms: 2, of kArm steps each, a uniform, so that
+//          compilers keep the loops; a group of kWalkers invocations.
 // Outputs: functions; walked: an invocation's arms, ways: their directions. Precision: highp.
 #include "pipeline/marks/shaders/colour_difference.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
@@ -21,6 +22,7 @@ uniform float colourThreshold;
 uniform float cutOff;        // cosine
 uniform vec2 detailBand;  // range of detail in which the layer is painted
 uniform ivec2 arms;
+uniform float beside;  // px; 0: what is beside a stroke is not looked at
 
 float depthAt(vec2 px) { return texelFetch(depth, pixelAt(px), 0).r; }
 
@@ -99,16 +101,16 @@ struct Arm {
 };
 
 // What a walk starts from: the colour and the detail at the anchor, the direction there, and by how
-// much the stroke deviates from the field.
+// much the stroke deviates from the field; and whether nothing of it is kept.
 struct Walk {
   vec3 colour;
   float detail;
   vec2 heading;
   vec2 hand;
+  bool isNew;
 };
 
 // In registers, these would leave none to the walk.
-const int kWalkers = 64;
 shared Walk walks[kWalkers];
 shared Arm walked[2 * kWalkers];
 shared vec2 ways[kWalkers * 2 * kArm];
@@ -118,6 +120,29 @@ int wayAt(int step) { return step * kWalkers + int(gl_LocalInvocationIndex); }
 bool reachesLabels(vec2 px) {
   if (hasSegments || !hasLabels) return hasLabels;
   return reachesObjects(px, segment, objectBounds, pixelsOfFull);
+}
+
+// How unlike the stroke's colour the background's is. Under a mover, whose strokes ask, too, it is not.
+float unlikeAt(vec2 px) {
+  vec4 there = textureLod(paint, px / fullSize, 0.0);
+  return apart(there.rgb, there.a * walks[gl_LocalInvocationIndex].colour);
+}
+
+// The heading of a step that leans away from other colours on one side of it, so that a stroke follows
+// what is as narrow as itself, and does not run over an edge that the field only knows roughly.
+vec2 steered(vec2 at, vec2 heading) {
+  const float kReach = 0.45;  // of `beside`
+  const float kLean = 4.0;  // of the reach, for a difference of colour of 1
+  const float kMost = 0.7;
+  float reach = kReach * beside;
+  float lean = 0.0;
+  for (int i = 0; i < arms.x; ++i) {
+    lean = unlikeAt(at + segment * heading + reach * vec2(-heading.y, heading.x)) - lean;
+    reach = -reach;
+  }
+  lean = clamp(kLean * lean, -kMost, kMost) * reach;
+  vec2 way = segment * heading + lean * vec2(-heading.y, heading.x);
+  return way * inversesqrt(dot(way, way));
 }
 
 const float kBehind = 0.025;  // of the image's width: so far strokes go on behind models
@@ -147,14 +172,15 @@ void walk(int side, vec2 from, Support on) {
     float along = dot(direction, heading);
     if (along < 0.0) direction = -direction;
     heading = direction;
+    if (goesOn && i > 0 && abs(along) < cutOff) {
+      endArm(number, float(i));
+      goesOn = false;
+    }
+    if (!isModel) heading = steered(at, heading);
     ways[wayAt(side * kArm + i)] = heading;
     at += segment * heading;
     if (!goesOn) continue;
     goesOn = false;
-    if (i > 0 && abs(along) < cutOff) {
-      endArm(number, float(i));
-      continue;
-    }
     if (mayLeave) {
       // An arm ends where another surface begins.
       float part = partOnPatch(at, heading, on, strayed);

@@ -29,13 +29,13 @@ struct HatchingParameters {
   double taper = 0.2;
   double opacity = 0.95;
   double darkness = 1.1;
-  double gamma = 1.2;
+  double gamma = 1.35;
   double paperTone = 0.06;  // lighter tones are left bare
   bool inverted = false;
-  double contours = 0.9;
+  double contours = 1.0;
   double lift = 0.75;
   double contourThreshold = 0.018;
-  double contourWidth = 1.0;
+  double contourWidth = 1.3;
   Brush brush = Brush::kMarker;
   std::filesystem::path brushFile = kNoBrushFile;
   double grain = 0.15;

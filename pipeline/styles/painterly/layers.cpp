@@ -33,6 +33,12 @@ glm::vec2 bandOf(const PainterlyParameters& p, std::size_t layer) {
   return {minDetail(p, layer), layer + 1 < countOf(p) ? kHidden * minDetail(p, layer + 1) : 1e9};
 }
 
+/// From the middle of a layer's strokes to what is beside them, px; 0 without accents.
+float besideOf(const LayerPlan& plan, std::size_t layer) {
+  constexpr double kWidths = 1.1;
+  return plan.hasAccents ? static_cast<float>(kWidths * widthOf(plan, layer)) : 0.0F;
+}
+
 }  // namespace
 
 LayerPlan planOf(const PainterlyParameters& p, hal::FrameSize full) {
@@ -40,7 +46,7 @@ LayerPlan planOf(const PainterlyParameters& p, hal::FrameSize full) {
   // Below that a brush has no bristles to show.
   const double finest =
       std::max(scale * p.strokeSizePixels, std::min(kMinPixels, p.strokeSizePixels));
-  return {countOf(p), finest, p.layerRatio, p.coverage, p.length, p.seed};
+  return {countOf(p), finest, p.layerRatio, p.coverage, p.length, p.seed, p.accents};
 }
 
 double widthOf(const LayerPlan& plan, std::size_t layer) {
@@ -50,8 +56,14 @@ double widthOf(const LayerPlan& plan, std::size_t layer) {
 
 marks::AnchorOptions anchorsOf(const LayerPlan& plan, std::size_t layer) {
   const double cell = widthOf(plan, layer) * std::sqrt(2.0 * plan.length / plan.coverage);
-  return {.density = {.cellPixels = std::max(4, static_cast<int>(std::lround(cell)))},
-          .seed = static_cast<unsigned>(plan.seed) * 8U + static_cast<unsigned>(layer)};
+  marks::DensityRule density{.cellPixels = std::max(4, static_cast<int>(std::lround(cell)))};
+  if (plan.hasAccents && layer + 1 == plan.layers) {
+    density.detailFactor = 2.5F;
+    density.detailRange = {0.42F, 1.12F};
+  }
+  return {.density = density,
+          .seed = static_cast<unsigned>(plan.seed) * 8U + static_cast<unsigned>(layer),
+          .accentPixels = besideOf(plan, layer)};
 }
 
 int texelsOf(const LayerPlan& plan, std::size_t layer) {
@@ -67,6 +79,7 @@ marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, st
   const auto coarseness = static_cast<float>(plan.layers - 1 - layer);
   marks::StrokeRule rule;
   rule.widthPx = width;
+  rule.besidePx = besideOf(plan, layer);
   rule.steps = 4.0F;
   rule.bothWays = p.walk == StrokeWalk::kBoth;
   const float arms = rule.bothWays ? 2.0F : 1.0F;

@@ -20,6 +20,7 @@ struct LayerPlan {
   double coverage = 0.0;
   double length = 0.0;
   int seed = 0;
+  bool hasAccents = true;  // PainterlyParameters::accents
   bool operator==(const LayerPlan&) const = default;
 };
 
@@ -28,7 +29,8 @@ LayerPlan planOf(const PainterlyParameters& p, hal::FrameSize full);
 
 /// The width of a layer's strokes, in px of the full picture.
 double widthOf(const LayerPlan& plan, std::size_t layer);
-/// Gives a layer as many anchors as reach the coverage with strokes of full length.
+/// Gives a layer as many anchors as reach the coverage with strokes of full length; the finest one
+/// more where they are cut short.
 marks::AnchorOptions anchorsOf(const LayerPlan& plan, std::size_t layer);
 /// Texels across a layer's brush, one of kBrushTexels: about as many as its strokes have pixels.
 int texelsOf(const LayerPlan& plan, std::size_t layer);

@@ -59,9 +59,10 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
                       "How much more detail counts on models than on what the camera sees."),
       numberParameter("colour_threshold", &P::colourThreshold, {.min = 0.01, .max = 1},
                       "The colour difference at which a fine stroke ends (thesis §4.4)."),
-      numberParameter("colour_clip", &P::colourClip, kPart,
-                      "How much strokes of models and of what moves leave out what is of quite another "
-                      "colour, such as eyes."),
+      numberParameter(
+          "colour_clip", &P::colourClip, kPart,
+          "How much strokes of models and of what moves leave out what is of quite another "
+          "colour, such as eyes."),
       numberParameter("cut_off", &P::cutOffDegrees, {.min = 1, .max = 90, .unit = "degrees"},
                       "The turn between two segments at which a fine stroke ends."),
       numberParameter("wander", &P::wander, {.min = 0, .max = 1, .unit = "rad"},
@@ -134,6 +135,9 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
                       "Whether what moves by itself is told from the background."),
       switchParameter("segments", &P::segments,
                       "Whether strokes end at the borders of the camera image's segments."),
+      switchParameter("accents", &P::accents,
+                      "Whether what is narrow is kept: more strokes begin on it and follow it, and "
+                      "they lie over those beside it. A change starts a new painting."),
       switchParameter(
           "clip", &P::clip,
           "Whether strokes and their colours end where models, their patches and movers "

@@ -74,6 +74,7 @@ struct PainterlyParameters {
   bool movers = true;
   bool segments = false;
   bool clip = true;
+  bool accents = true;
   bool modelSpace = true;
 };
 
