@@ -43,10 +43,11 @@ uniform float imageScale;
 uniform float focalPx;
 uniform vec2 layer;
 
-// The difference of colour from which a stroke is an accent, remains one, and before a standing camera.
+// The difference of colour from which a new stroke is an accent, one that exists becomes one, and one
+// remains one. Far apart: each change of the painting order is seen.
 const float kNewAccent = 0.11;
-const float kRemainingAccent = 0.06;
-const float kRestingAccent = 0.03;
+const float kLaterAccent = 0.3;
+const float kRemainingAccent = 0.015;
 
 const int kList = isModel ? kOnModels : mayBeOnMover ? kMoversOnly : kWithLabels;
 const float kFocusDetail = 1.0;  // how much more detail counts in a focus
@@ -238,7 +239,7 @@ void markAccent(uint slot, vec2 px, vec2 heading, bool isNew) {
   float unlike = 1e9;
   for (int i = 0; i < arms.x; ++i) unlike = min(unlike, unlikeAt(px + (i == 0 ? arm : -arm)));
   bool was = !isNew && (strokes[slot].state & kAccent) != 0u;
-  float least = was ? (isStanding ? kRestingAccent : kRemainingAccent) : kNewAccent;
+  float least = isNew ? kNewAccent : was ? kRemainingAccent : kLaterAccent;
   strokes[slot].state = (strokes[slot].state & ~kAccent) | (unlike > least ? kAccent : 0u);
 }
 

@@ -29,7 +29,7 @@ double minDetail(const PainterlyParameters& p, std::size_t layer) {
 
 /// Where a layer is painted: not below what it is for, nor where finer strokes hide it.
 glm::vec2 bandOf(const PainterlyParameters& p, std::size_t layer) {
-  constexpr double kHidden = 6.0;
+  constexpr double kHidden = 4.0;
   return {minDetail(p, layer), layer + 1 < countOf(p) ? kHidden * minDetail(p, layer + 1) : 1e9};
 }
 

@@ -76,7 +76,7 @@ TEST_F(StrokeAccents, LieOverTheOthers) {
 }
 
 TEST_F(StrokeAccents, StayOnesWhileTheirContrastFades) {
-  // From 0.11 on strokes become accents, and remain some down to 0.06.
+  // Differences of luma: of colour, they are 1.7 times as much.
   const auto wire = [](double contrast) {
     return greyPicture(kSize, [contrast](glm::dvec2 px) {
       return distanceToWire(px) < 2.0 ? kWall - contrast : kWall;
@@ -97,8 +97,12 @@ TEST_F(StrokeAccents, StayOnesWhileTheirContrastFades) {
   EXPECT_GT(first, 10);
   advance(wire(0.055), ruleWith(kBeside));
   EXPECT_GT(accents(), first / 2);
-  advance(wire(0.01), ruleWith(kBeside));
+  advance(wire(0.004), ruleWith(kBeside));
   EXPECT_EQ(accents(), 0);
+  advance(wire(0.1), ruleWith(kBeside));
+  EXPECT_EQ(accents(), 0) << "strokes that exist need more";
+  advance(wire(0.3), ruleWith(kBeside));
+  EXPECT_GT(accents(), first / 2);
 }
 
 TEST_F(StrokeAccents, FollowWhatIsNarrow) {
