@@ -32,10 +32,9 @@ glm::ivec2 gridOf(hal::FrameSize full, int cellPixels) {
 /// Slots for every cell, including those beyond the border, at a density halfway between target and
 /// deathAbove, for the anchors that fade out, and for those that other content covers.
 std::uint32_t slotsFor(glm::ivec2 grid, const DensityRule& rule) {
-  const float factor = 0.5F * (1.0F + rule.detailFactor);  // half of the image is full of detail
   const int cells = (grid.x + 2) * (grid.y + 2);
-  const int twice =
-      static_cast<int>(factor * static_cast<float>(cells * (rule.target + rule.deathAbove)));
+  const auto most = static_cast<float>(cells * (rule.target + rule.deathAbove));
+  const int twice = static_cast<int>(rule.detailFactor * most);
   const int fading = twice / 10;
   const int covered = twice / 4;
   return static_cast<std::uint32_t>((twice + fading + covered + 1) / 2);
@@ -274,8 +273,8 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .set("focalPx", hasDepth ? focalOf(frame).y : 1.0F)
       .set("scale", static_cast<float>(scaleOctaves))
       .set("target", rule.target)
-      .texture("picture", frame.colour != nullptr ? *frame.colour : motion.backward())
-      .set("accentPixels", frame.colour != nullptr ? options.accentPixels : 0.0F)
+      .texture("picture", frame.camera())
+      .set("accentPixels", options.accentPixels)
       .storage("Anchors", anchors)
       .storage("Cells", cells)
       .storage("Plan", births)

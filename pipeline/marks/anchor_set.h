@@ -28,9 +28,10 @@ struct DensityRule {
   int target = 2;
   int birthBelow = 1;
   int deathAbove = 4;
-  /// Marks are cut short where there is much detail: in the camera's image, the three numbers above
-  /// are multiplied there, by 1 up to the first of `detailRange` (TensorField::resolved), by this
-  /// from the second on.
+  /// Marks are cut short where there is much detail: in the camera's image and on movers, the three
+  /// numbers above are multiplied there, by 1 up to the first of `detailRange`
+  /// (TensorField::resolved), by this from the second on; only if advance() is given the field. At
+  /// most 3.9.
   float detailFactor = 1.0F;
   glm::vec2 detailRange{0.0F, 1.0F};
 };
@@ -38,8 +39,8 @@ struct DensityRule {
 struct AnchorOptions {
   DensityRule density;
   unsigned seed = 1;  ///< seeds all random numbers
-  /// px of the full image: births in the camera's image prefer what is narrower, which chance would
-  /// often miss; 0: they do not
+  /// px of the full image: births in the camera's image prefer places where something narrower is
+  /// seen, which chance would often miss; 0: they do not
   float accentPixels = 0.0F;
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -32,10 +33,13 @@ constexpr std::size_t kMoversOnly = 32;
 constexpr std::array<std::uint32_t, 12> kEmptyLists{0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0};
 
 /// A number near the golden section of n and coprime to it, so that neighbouring slots are far
-/// apart in the painting order.
+/// apart in the painting order; smaller where its products would not fit into 32 bits
+/// (shaders/stroke_order.comp).
 std::uint32_t strideFor(std::uint32_t n) {
+  constexpr std::uint32_t kLargest = std::numeric_limits<std::uint32_t>::max();
   auto stride = std::max(1U, static_cast<std::uint32_t>(0.618 * n));
-  while (std::gcd(stride, n) != 1U) ++stride;
+  stride = std::min(stride, std::max(1U, kLargest / std::max(n, 1U)));
+  while (std::gcd(stride, n) != 1U) --stride;
   return stride;
 }
 

@@ -36,8 +36,9 @@ struct StrokeRule {
   float restSlack = 0.6F;
   float wanderRad = 0.1F;  ///< largest deviation of a stroke from the field
   bool bothWays = true;    ///< false: only ahead of the anchor, as in the thesis
-  /// from a stroke's middle to what is beside it: strokes lean away from other colours there, and
-  /// those that have them on both sides lie over the others of the layer; 0: neither
+  /// px from a stroke's middle to the places beside it: strokes of the background lean away from
+  /// other colours there, and those that have them on both sides are painted over the others of the
+  /// layer; 0: neither
   float besidePx = 0.0F;
   std::size_t fieldLevel = 0;  ///< level of the tensor field; at most its last
   float widthPx = 8.0F;
@@ -91,9 +92,9 @@ struct StrokePaint {
 };
 
 /// The strokes of an AnchorSet's anchors: traced along a tensor field (thesis §4.4), blended with
-/// their past (§4.5, §5.4), and laid out for drawing in an order that never changes during their
-/// lives. All data stays on the GPU. All calls on the thread of the GL context that was current at
-/// construction.
+/// their past (§4.5, §5.4), and laid out for drawing in an order that hardly ever changes during
+/// their lives. All data stays on the GPU. All calls on the thread of the GL context that was
+/// current at construction.
 class StrokeSet {
  public:
   /// `library` has gpu::marksShaders(), gpu::sceneShaders() and gpu::gpuShaders(); `slotCount` is

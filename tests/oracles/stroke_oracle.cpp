@@ -24,13 +24,15 @@ glm::dvec2 leaned(const StrokeGround& ground, const StrokeWalk& walk, glm::dvec2
                   glm::dvec2 direction, glm::dvec3 colour) {
   constexpr double kReach = 0.45;
   constexpr double kLean = 4.0;
-  constexpr double kMost = 0.7;
-  const glm::dvec2 arm = kReach * walk.besidePx * glm::dvec2(-direction.y, direction.x);
+  constexpr double kMost = 0.35;
+  const double reach = kReach * walk.besidePx;
+  const glm::dvec2 across(-direction.y, direction.x);
   const glm::dvec2 to = at + walk.segmentPx * direction;
-  const double left = colourDifference(ground.colourAt(to + arm), colour);
-  const double right = colourDifference(ground.colourAt(to - arm), colour);
-  const double lean = std::clamp(kLean * (right - left), -kMost, kMost);
-  return glm::normalize(walk.segmentPx * direction + lean * arm);
+  const double left = colourDifference(ground.colourAt(to + reach * across), colour);
+  const double right = colourDifference(ground.colourAt(to - reach * across), colour);
+  const double most = kMost * walk.segmentPx;
+  const double lean = std::clamp(kLean * reach * (right - left), -most, most);
+  return glm::normalize(walk.segmentPx * direction + lean * across);
 }
 
 }  // namespace

@@ -6,12 +6,13 @@ struct Cell {
   uint onObjects;  // staying anchors on virtual objects
   uint nextInImage;  // key of the next anchor to remove in the camera image (removalKey()); 0: none
   uint strata;  // the occupied parts of the cell: 16 bits for the image, 16 for objects
-  // wanted spawns: 16 bits for the image, 8 for objects, 8 for patches of objects without anchors
+  // wanted spawns: 8 bits for the image, 8 for the factor of its target, 8 for objects, 8 for patches
+  // of objects without anchors
   uint births;
   uint firstBirth;  // index in the frame's spawns
   uint onMovers;  // staying anchors on movers
   uint nextOnMovers;  // of movers
-  uint moverBirths;
+  uint moverBirths;  // wanted spawns on movers and the factor, as in the lowest bits of births
   uint patches;  // which patches of objects have staying anchors (patchBit())
   uint crowdedPatches;  // which have two or more
   uint nextOnObjects;  // as nextInImage, of virtual objects
@@ -24,7 +25,12 @@ struct Cell {
 
 // Of the patch with this label (surface_form.glsl). Neighbours' differ, but for one pair in 31.
 uint patchBit(uint label) { return 1u << (label % 31u); }
-uint birthsInImage(uint births) { return births & 0xFFFFu; }
+const float kFactorUnits = 64.0;
+uint birthsWith(uint number, float factor) {
+  return min(number, 255u) | uint(clamp(factor * kFactorUnits + 0.5, 1.0, 255.0)) << 8u;
+}
+uint birthsInImage(uint births) { return births & 0xFFu; }
+float factorOf(uint births) { return float(births >> 8u & 0xFFu) / kFactorUnits; }
 uint birthsOnObjects(uint births) { return births >> 16u & 0xFFu; }
 uint birthsOnPatches(uint births) { return births >> 24u; }
 

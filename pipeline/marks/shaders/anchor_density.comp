@@ -112,20 +112,27 @@ vec2 factorsOf(ivec2 cell) {
   vec2 px = (vec2(cell) + 0.5) * float(cellPixels);
   vec2 detail = vec2(textureLod(detailField, px * detailScale, 0.0).w,
                      textureLod(moverField, px * moverScale, 0.0).w);
-  return mix(vec2(1.0), vec2(detailFactor), smoothstep(vec2(detailRange.x), vec2(detailRange.y), detail));
+  return 1.0 + (detailFactor - 1.0) * smoothstep(vec2(detailRange.x), vec2(detailRange.y), detail);
 }
+
+uint rounded(float number) { return uint(number + 0.5); }
 
 // Whether the surrounding cells hold their target. An empty cell among them is then a gap by
 // chance, and filling it would crowd them later.
-bool isAmongFull(ivec2 cell, float factor) {
+bool isAmongFull(ivec2 cell) {
   uint around = 0u;
+  float factors = 0.0;
+  float number = 0.0;
   for (int y = -1; y <= 1; ++y) {
     for (int x = -1; x <= 1; ++x) {
       ivec2 at = cell + ivec2(x, y);
-      if (isInGrid(at)) around += cells[indexOf(at)].inImage + cells[indexOf(at)].onObjects;
+      if (!isInGrid(at)) continue;
+      around += cells[indexOf(at)].inImage + cells[indexOf(at)].onObjects;
+      factors += factorsOf(at).x;
+      number += 1.0;
     }
   }
-  return float(around) >= 8.0 * factor * float(target);
+  return float(around) >= 8.0 * factors / number * float(target);
 }
 
 // The patches that have anchors in the cell or beside it, whose strokes reach into it.
@@ -138,11 +145,11 @@ uint paintedAround(ivec2 cell) {
   return painted;
 }
 
-// `isTight`: the target is wanted, not just `birthBelow`.
-uint wanted(float share, uint count, bool isGap, bool isTight) {
+// `factor`: of the numbers; `isTight`: the target is wanted, not just `birthBelow`.
+uint wanted(float share, float factor, uint count, bool isGap, bool isTight) {
   if (share < kMinShare) return 0u;
-  uint least = uint(max(1.0, floor(share * float(isTight ? target : birthBelow) + 0.5)));
-  uint full = uint(max(1.0, floor(share * float(target) + 0.5)));
+  uint least = uint(max(1.0, floor(factor * share * float(isTight ? target : birthBelow) + 0.5)));
+  uint full = uint(max(1.0, floor(factor * share * float(target) + 0.5)));
   if (count >= least || full <= count) return 0u;
   return isGap ? least - count : full - count;
 }
@@ -172,7 +179,7 @@ void main() {
   // Each further patch may have an anchor of its own; room for it is made at its birth, so that no
   // other one has to go in the next frame.
   uint more = max(objects.patches, 1u) - 1u;
-  uint most = uint(mix(factors.x, 1.0, objects.share) * float(deathAbove));
+  uint most = rounded(mix(factors.x, 1.0, objects.share) * float(deathAbove));
   if (cell.inImage + cell.onObjects + objects.unpainted > most + more) {
     // Of the two kinds, the one that has more of its share.
     float ofObjects = float(cell.onObjects + objects.unpainted) * (1.0 - objects.share);
@@ -180,21 +187,21 @@ void main() {
                     (cell.nextOnObjects != 0u && ofObjects >= float(cell.inImage) * objects.share);
     anchors[slotOf(isObject ? cell.nextOnObjects : cell.nextInImage)].state |= kDying;
   }
-  if (cell.underModels > 0u && cell.inImage + cell.underModels > uint(factors.x * float(deathAbove))) {
+  if (cell.underModels > 0u && cell.inImage + cell.underModels > rounded(factors.x * float(deathAbove))) {
     anchors[slotOf(cell.nextUnderModels)].state |= kDying;
   }
   float moving = moverShare(at);
   uint mostOnMovers =
-      uint(hasMoverSlack ? factors.y * float(deathAbove) : floor(moving * float(target) + 2.5));
+      rounded(hasMoverSlack ? factors.y * float(deathAbove) : factors.y * moving * float(target) + 2.0);
   if (cell.onMovers > mostOnMovers) anchors[slotOf(cell.nextOnMovers)].state |= kDying;
   // Border cells may be cut off.
   vec2 inside = clamp((fullSize - vec2(at * cellPixels)) / float(cellPixels), 0.0, 1.0);
   float whole = inside.x * inside.y;
   float share = objects.share;
-  bool isGap = isAmongFull(at, factors.x);
+  bool isGap = isAmongFull(at);
   // The strokes of those under models reach beyond them.
-  uint inImage = wanted(factors.x * whole * (1.0 - share), cell.inImage + cell.underModels, isGap, false);
-  uint onObjects = wanted(whole * share, cell.onObjects, isGap, false);
+  uint inImage = wanted(whole * (1.0 - share), factors.x, cell.inImage + cell.underModels, isGap, false);
+  uint onObjects = wanted(whole * share, 1.0, cell.onObjects, isGap, false);
   // A stroke paints its own patch only.
   uint onPatches = min(objects.unpainted, 255u);
   onObjects = max(onObjects, onPatches) - onPatches;
@@ -208,6 +215,8 @@ void main() {
   uint waking = min(onPatches, onEmpty);
   onPatches -= waking;
   onObjects -= min(onObjects, sleeping - waking);
-  cells[index].births = inImage | min(onObjects, 255u) << 16u | onPatches << 24u;
-  cells[index].moverBirths = wanted(factors.y * whole * moving, cell.onMovers, false, !hasMoverSlack);
+  cells[index].births =
+      birthsWith(inImage, factors.x) | min(onObjects, 255u) << 16u | onPatches << 24u;
+  uint onMovers = wanted(whole * moving, factors.y, cell.onMovers, false, !hasMoverSlack);
+  cells[index].moverBirths = birthsWith(onMovers, factors.y);
 }

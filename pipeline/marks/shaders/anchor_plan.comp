@@ -22,7 +22,7 @@ shared uint dormantBefore[128];
 uint birthsOf(uint cell) {
   uint births = cells[cell].births;
   return birthsInImage(births) + birthsOnObjects(births) + birthsOnPatches(births) +
-         cells[cell].moverBirths;
+         birthsInImage(cells[cell].moverBirths);
 }
 
 void main() {

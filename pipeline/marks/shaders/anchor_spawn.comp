@@ -16,7 +16,7 @@
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"
 #include "pipeline/marks/shaders/anchor_slots.glsl"
-#include "pipeline/marks/shaders/colour_difference.glsl"
+#include "pipeline/marks/shaders/accent.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) buffer Anchors { Anchor anchors[]; };
@@ -50,7 +50,6 @@ uniform float accentPixels;
 const int kScan = 8;  // places along a cell's side
 const int kTries = 6;  // attempts in one part of the cell, then as many in the whole cell
 const int kAccentTries = 8;  // before these, in that part, to find something narrow
-const float kAccentColour = 0.11;  // as of strokes: stroke_trace.comp
 
 ivec2 pixelAt(vec2 px) {
   return clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(ids, 0) - 1);
@@ -131,10 +130,10 @@ float objectScaleAt(vec2 px) {
 // them are to remain. So the anchor that is the part u of the target from the lowest is needed from
 // the scale sqrt(u) on, as compared to now. Neighbouring cells have parts far apart (Roberts, "The
 // unreasonable effectiveness of quasirandom sequences", 2018), so that what remains is spread evenly.
-uint rankOfBirth(ivec2 cell, uint before, float octaves) {
+uint rankOfBirth(ivec2 cell, uint before, float factor, float octaves) {
   vec2 lattice = vec2(cell) * vec2(0.7548776662, 0.5698402910);
   float within = fract(lattice.x + lattice.y + float(salt & 1023u) * 0.6180339887);
-  float part = (float(before) + max(within, 1.0 / 64.0)) / float(target);
+  float part = (float(before) + max(within, 1.0 / 64.0)) / (factor * float(target));
   return rankAt(octaves + 0.5 * log2(part));
 }
 
@@ -150,16 +149,14 @@ bool isOnAccent(vec2 px) {
   float most = 0.0;
   for (int i = 0; i < 2; ++i) {
     vec2 arm = accentPixels * vec2(1 - i, i);
-    vec3 low = pictureAt(px - arm);
-    vec3 high = pictureAt(px + arm);
-    most = max(most, min(apart(low, own), apart(high, own)));
+    most = max(most, narrowness(pictureAt(px - arm) - own, pictureAt(px + arm) - own));
   }
-  return most > kAccentColour;
+  return most > kNewAccent;
 }
 
 // `patchesTaken`: those that the anchor is not to lie on; its own is added.
-// `before`: how many anchors of its kind the cell has.
-void spawn(ivec2 cell, uint number, uint before, bool onObject, bool onMover, inout uint taken,
+// `before`: how many anchors of its kind the cell has; `factor`: of their target.
+void spawn(ivec2 cell, uint number, uint before, float factor, bool onObject, bool onMover, inout uint taken,
            inout uint patchesTaken) {
   if (number >= freeCount) return;
   uint hash = hashOf(cell, hashOf(salt) + number);  // separates the sequences of different frames
@@ -202,7 +199,7 @@ void spawn(ivec2 cell, uint number, uint before, bool onObject, bool onMover, in
   born.fade = atOnce || onMover || mover.g > 0.0 || hasComeIn(px) ||
                       (onObject ? hasBeenUncovered(px) : hasModelLeft(px))
                   ? 1.0 : 0.0;
-  born.ageAndRank = rankOfBirth(cell, before, onObject ? objectScaleAt(px) : scale) << 16u;
+  born.ageAndRank = rankOfBirth(cell, before, factor, onObject ? objectScaleAt(px) : scale) << 16u;
   // independent of the place, which came from the same hash
   born.seed = hashOf(hash ^ 0x9E3779B9u);
   born.surface = onMover ? 0u : id;  // a mover is before all real things
@@ -245,23 +242,24 @@ void main() {
     anchors[slot].fade = atOnce || hasComeIn(anchors[slot].px) || hasBeenUncovered(anchors[slot].px)
                              ? 1.0 : 0.0;
   }
-  if (births + moverBirths == 0u) return;
+  bool hasBirths = birthsInImage(births) + birthsOnObjects(births) + birthsOnPatches(births) > 0u;
+  if (!hasBirths && birthsInImage(moverBirths) == 0u) return;
   uint number = cells[index].firstBirth;
   uint any = 0u;
   uint taken = strata & 0xFFFFu;
   for (uint i = 0u; i < birthsInImage(births); ++i) {
-    spawn(at, number++, inImage++, false, false, taken, any);
+    spawn(at, number++, inImage++, factorOf(births), false, false, taken, any);
   }
   taken = strata >> 16u;
   for (uint i = 0u; i < birthsOnPatches(births); ++i) {
-    spawn(at, number++, onObjects++, true, false, taken, painted);
+    spawn(at, number++, onObjects++, 1.0, true, false, taken, painted);
   }
   for (uint i = 0u; i < birthsOnObjects(births); ++i) {
     any = 0u;
-    spawn(at, number++, onObjects++, true, false, taken, any);
+    spawn(at, number++, onObjects++, 1.0, true, false, taken, any);
   }
   taken = 0u;
-  for (uint i = 0u; i < moverBirths; ++i) {
-    spawn(at, number++, onMovers++, false, true, taken, any);
+  for (uint i = 0u; i < birthsInImage(moverBirths); ++i) {
+    spawn(at, number++, onMovers++, factorOf(moverBirths), false, true, taken, any);
   }
 }

@@ -5,13 +5,13 @@
 const int kArm = 4;  // segments on each side of the anchor
 
 const uint kWanted = 0x80000000u;  // `exists` is to be 1; with hysteresis
-const uint kAccent = 0x40000000u;  // lies over what is of another colour on both sides of it
+const uint kAccent = 0x40000000u;  // depicts something narrow: painted after the others
 
 struct Stroke {
   vec2 ways[2 * kArm];  // directions: of the arm ahead of the anchor, then of the one behind it
   vec2 lengths;  // visible length of each arm, in segments
   float exists;  // opacity, in [0, 1]
-  uint state;  // the label of what it lies on (stroke_label.glsl), its girth, and the flag below
+  uint state;  // the label of what it lies on (stroke_label.glsl), its girth, and the flags above
   vec3 colour;     // sRGB-coded
   float seen;  // exists × its anchor's fade
 };

@@ -67,7 +67,7 @@ struct Support {
   int mover;  // its number
 };
 
-// Of each invocation: how much looser its mover is painted, in [0, 1], and a tensor, of strokes along
+// How much looser each invocation's mover is painted, in [0, 1], and a tensor, of strokes along
 // the mover's motion. In registers, they would leave none to the walk.
 const int kWalkers = 64;
 shared vec3 loose[kWalkers];

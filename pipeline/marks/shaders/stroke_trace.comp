@@ -12,6 +12,7 @@
 // Outputs: strokes. One invocation per stroke of its list.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
+#include "pipeline/marks/shaders/accent.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/focus.glsl"
 #include "pipeline/marks/shaders/layer_blocks.glsl"
@@ -43,15 +44,9 @@ uniform float imageScale;
 uniform float focalPx;
 uniform vec2 layer;
 
-// The difference of colour from which a new stroke is an accent, one that exists becomes one, and one
-// remains one. Far apart: each change of the painting order is seen.
-const float kNewAccent = 0.11;
-const float kLaterAccent = 0.3;
-const float kRemainingAccent = 0.015;
-
 const int kList = isModel ? kOnModels : mayBeOnMover ? kMoversOnly : kWithLabels;
 const float kFocusDetail = 1.0;  // how much more detail counts in a focus
-const float kAccentDetail = 2.0;  // and under an accent
+const float kAccentDetail = 0.35;  // of what else is asked for, an accent needs
 
 // The label of the anchor's triangle: that of its pixel, or of the one beside it that shows the
 // triangle.
@@ -214,18 +209,19 @@ bool isWanted(uint slot, vec2 px, float seen, bool isResting, bool isNew) {
   float hash = unitOf(hashOf(anchors[slot].seed ^ 0x51u));
   // A stroke is wanted where the detail lies in its band; an existing one stays a little longer.
   float focused = focusStrength * focusAt(px);
-  float more = kFocusDetail * focused + ((strokes[slot].state & kAccent) != 0u ? kAccentDetail : 0.0);
-  float detail = (1.0 + more) * seen + detailSpread * (hash - 0.5);
+  float detail = (1.0 + kFocusDetail * focused) * seen + detailSpread * (hash - 0.5);
+  bool isAccent = !isModel && (strokes[slot].state & kAccent) != 0u;
+  float least = detailBand.x * (isAccent ? kAccentDetail : 1.0);
   bool was = !isNew && (strokes[slot].state & kWanted) != 0u;
   float wider = was ? 1.0 - (isResting ? restSlack : slack) : isResting ? 1.0 + 0.5 * restSlack : 1.0;
-  bool wanted = detail >= detailBand.x * wider && detail <= detailBand.y / wider;
+  bool wanted = detail >= least * wider && detail <= detailBand.y / wider;
   if (focusStrength > 0.0) {
     float part = partOf(rankOf(anchors[slot].ageAndRank), scaleAt(px));
     // Patches of models are often smaller than broad strokes: only the finest layer thins out there.
     float least = isModel && layer.y > 2.0 ? (layer.y - 2.0) / (layer.y - 1.0) : 0.0;
     float fineness = max(finenessAt(px), least);
     // What finer strokes would hide is seen where they are not painted.
-    wanted = wanted || (detail >= detailBand.x * wider &&
+    wanted = wanted || (detail >= least * wider &&
                         !isAmong(layerShare(fineness, layer.x + 1.0, layer.y), part, !was));
     wanted = wanted && isAmong(layerShare(fineness, layer.x, layer.y), part, was);
   }
@@ -236,11 +232,17 @@ bool isWanted(uint slot, vec2 px, float seen, bool isResting, bool isNew) {
 // others of its layer, since those beside it would hide it.
 void markAccent(uint slot, vec2 px, vec2 heading, bool isNew) {
   vec2 arm = beside * vec2(-heading.y, heading.x);
-  float unlike = 1e9;
-  for (int i = 0; i < arms.x; ++i) unlike = min(unlike, unlikeAt(px + (i == 0 ? arm : -arm)));
+  vec3 left = vec3(0.0);
+  vec3 right = vec3(0.0);
+  for (int i = 0; i < arms.x; ++i) {
+    left = right;
+    right = unlikeAt(px + arm);
+    arm = -arm;
+  }
+  float narrow = beside > 0.0 ? narrowness(left, right) : 0.0;
   bool was = !isNew && (strokes[slot].state & kAccent) != 0u;
   float least = isNew ? kNewAccent : was ? kRemainingAccent : kLaterAccent;
-  strokes[slot].state = (strokes[slot].state & ~kAccent) | (unlike > least ? kAccent : 0u);
+  strokes[slot].state = (strokes[slot].state & ~kAccent) | (narrow > least ? kAccent : 0u);
 }
 
 // What is read again, of anchors and strokes, is not kept in registers through the walk.
@@ -316,7 +318,7 @@ void main() {
   float stays = isOnMover ? past.x : pow(past.x, hold);
   vec3 change = colour - strokes[slot].colour;
   float changed = isNew ? 0.0 : smoothstep(otherColour.x, otherColour.y, weightedLength(change));
-  uint now = label | (wanted ? kWanted : 0u) | (strokes[slot].state & kAccent);
+  uint now = label | (wanted ? kWanted : 0u) | (isModel ? 0u : strokes[slot].state & kAccent);
   if (isModel && !isNew) now = withGirth(now, mix(1.0, girthOf(strokes[slot].state), past.x));
   strokes[slot].state = now;
   storeWays(slot, heading, isModel, stays, !isNew && changed < 0.5);

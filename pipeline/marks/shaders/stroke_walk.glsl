@@ -122,10 +122,11 @@ bool reachesLabels(vec2 px) {
   return reachesObjects(px, segment, objectBounds, pixelsOfFull);
 }
 
-// How unlike the stroke's colour the background's is. Under a mover, whose strokes ask, too, it is not.
-float unlikeAt(vec2 px) {
+// The difference of the background's colour from the stroke's; where layers are apart, it is 0 under a mover,
+// whose strokes ask, too.
+vec3 unlikeAt(vec2 px) {
   vec4 there = textureLod(paint, px / fullSize, 0.0);
-  return apart(there.rgb, there.a * walks[gl_LocalInvocationIndex].colour);
+  return there.rgb - there.a * walks[gl_LocalInvocationIndex].colour;
 }
 
 // The heading of a step that leans away from other colours on one side of it, so that a stroke follows
@@ -133,14 +134,14 @@ float unlikeAt(vec2 px) {
 vec2 steered(vec2 at, vec2 heading) {
   const float kReach = 0.45;  // of `beside`
   const float kLean = 4.0;  // of the reach, for a difference of colour of 1
-  const float kMost = 0.7;
+  const float kMost = 0.35;  // of the step
   float reach = kReach * beside;
   float lean = 0.0;
   for (int i = 0; i < arms.x; ++i) {
-    lean = unlikeAt(at + segment * heading + reach * vec2(-heading.y, heading.x)) - lean;
+    lean = weightedLength(unlikeAt(at + segment * heading + reach * vec2(-heading.y, heading.x))) - lean;
     reach = -reach;
   }
-  lean = clamp(kLean * lean, -kMost, kMost) * reach;
+  lean = clamp(kLean * reach * lean, -kMost * segment, kMost * segment);
   vec2 way = segment * heading + lean * vec2(-heading.y, heading.x);
   return way * inversesqrt(dot(way, way));
 }

@@ -49,12 +49,6 @@ glm::vec3 pastOf(hal::Duration step, double seconds, double moverSeconds,
           marks::keptAfter(step, std::min(seconds, moverSeconds))};
 }
 
-/// Scale from px of the full image to texture coordinates of a field's level.
-glm::vec2 scaleOf(const marks::TensorField& field, std::size_t level) {
-  const hal::FrameSize size = field.resolved(level).size();
-  return glm::vec2(1.0 / (field.regionPixels(level) * glm::dvec2(size.width, size.height)));
-}
-
 }  // namespace
 
 void bindHatchTone(gpu::Program& program, const scene::ArFrame& frame, const gpu::Texture& tone,
@@ -113,8 +107,8 @@ void HatchLines::bindField(gpu::Program& program, const marks::TensorField& fiel
   program.texture("field", field.resolved(level))
       .texture("modelField", field.resolvedModels(level))
       .texture("moverField", field.movers())
-      .set("fieldScale", scaleOf(field, level))
-      .set("moverScale", scaleOf(field, 0))
+      .set("fieldScale", field.textureScale(level))
+      .set("moverScale", field.textureScale(0))
       .set("slope", rule.slope)
       .set("lead", rule.lead)
       .set("turn", glm::vec2(std::cos(rule.turnRad), std::sin(rule.turnRad)));

@@ -29,8 +29,9 @@ double minDetail(const PainterlyParameters& p, std::size_t layer) {
 
 /// Where a layer is painted: not below what it is for, nor where finer strokes hide it.
 glm::vec2 bandOf(const PainterlyParameters& p, std::size_t layer) {
-  constexpr double kHidden = 4.0;
-  return {minDetail(p, layer), layer + 1 < countOf(p) ? kHidden * minDetail(p, layer + 1) : 1e9};
+  // Denser fine strokes hide more.
+  const double hidden = p.accents ? 4.0 : 6.0;
+  return {minDetail(p, layer), layer + 1 < countOf(p) ? hidden * minDetail(p, layer + 1) : 1e9};
 }
 
 /// From the middle of a layer's strokes to what is beside them, px; 0 without accents.

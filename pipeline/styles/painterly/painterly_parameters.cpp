@@ -206,6 +206,7 @@ hue_jitter = 0.05
 value_jitter = 0.19
 )"},
     {"sketch", "coloured pencils on white paper", R"(
+value_jitter = 0.05
 layers = 2
 stroke_size = 3
 layer_ratio = 1.7
@@ -231,6 +232,7 @@ saturation = 1.2
 warmth = 0
 )"},
     {"ink", "brown ink on white paper, washed with a brush and drawn with it", R"(
+value_jitter = 0.05
 layers = 3
 stroke_size = 3
 layer_ratio = 1.7

@@ -47,7 +47,7 @@ struct PainterlyParameters {
   double widthVariation = 0.25;
   double hueJitter = 0.03;
   double saturationJitter = 0.12;
-  double valueJitter = 0.05;
+  double valueJitter = 0.12;
   std::filesystem::path brushFile = kNoBrushFile;
   Brush brush = Brush::kFlat;
   double relief = 1.4;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -44,6 +45,17 @@ class StrokeAccents : public StrokeTest {
     return over;
   }
 
+  /// How many strokes that are seen are accents; `onModels`: of those on virtual objects.
+  std::ptrdiff_t accents(bool onModels = false) const {
+    constexpr std::uint32_t kAccent = 0x40000000U;
+    constexpr std::uint32_t kLabel = 8191U;
+    const std::vector<StrokeSlot> strokes = readStrokes();
+    return std::ranges::count_if(strokes, [&](const StrokeSlot& each) {
+      return each.seen > 0.0F && (each.state & kAccent) != 0U &&
+             (!onModels || (each.state & kLabel) == 1U);
+    });
+  }
+
   /// The mean length of strokes that are dark, in segments.
   double darkLength() const {
     double sum = 0.0;
@@ -69,6 +81,7 @@ TEST_F(StrokeAccents, LieOverTheOthers) {
   advance(greyPicture(kSize, kWavingWire), ruleWith(kBeside));
   // Strokes of the wire's border are as dark, and have the wall on one side only.
   const int over = brightOverDark();
+  EXPECT_GT(accents(), 10);
   beginAnew();
   advance(greyPicture(kSize, kWavingWire), ruleWith(0.0F));
   EXPECT_GT(brightOverDark(), 200) << "the control";
@@ -80,13 +93,6 @@ TEST_F(StrokeAccents, StayOnesWhileTheirContrastFades) {
   const auto wire = [](double contrast) {
     return greyPicture(kSize, [contrast](glm::dvec2 px) {
       return distanceToWire(px) < 2.0 ? kWall - contrast : kWall;
-    });
-  };
-  const auto accents = [this] {
-    constexpr std::uint32_t kAccent = 0x40000000U;
-    const std::vector<StrokeSlot> strokes = readStrokes();
-    return std::ranges::count_if(strokes, [](const StrokeSlot& each) {
-      return each.seen > 0.0F && (each.state & kAccent) != 0U;
     });
   };
   advance(wire(0.055), ruleWith(kBeside));
@@ -127,7 +133,21 @@ TEST_F(StrokeAccents, AnEdgeIsNone) {
   const auto edge = [](glm::dvec2 px) { return px.y < 64.0 ? kWire : kWall; };
   beginAnew({.density = {.cellPixels = 12}, .accentPixels = kBeside});
   advance(greyPicture(kSize, edge), ruleWith(kBeside));
-  EXPECT_GT(brightOverDark(), 200);
+  EXPECT_EQ(accents(), 0);
+}
+
+TEST_F(StrokeAccents, AreNoneWhereNothingIsLookedAt) {
+  advance(greyPicture(kSize, kWavingWire), ruleWith(0.0F));
+  EXPECT_EQ(accents(), 0);
+}
+
+TEST_F(StrokeAccents, AreNotOnModels) {
+  advance(greyPicture(kSize, kWavingWire), ruleWith(kBeside));
+  EXPECT_GT(accents(), 10);
+  // Slots that accents have left are given to strokes of the model that comes.
+  useObject([](glm::vec2) { return true; });
+  for (int i = 0; i < 40; ++i) advance(greyPicture(kSize, kWavingWire), ruleWith(kBeside));
+  EXPECT_EQ(accents(true), 0);
 }
 
 class DetailDensity : public StrokeTest {

@@ -5,7 +5,7 @@
 //          premultiplied; mover_labels.glsl's; borders (borders.glsl) if hasBorders;
 //          pixelsOfFull; ground: sRGB-coded; wash: its share;
 //          mixture.glsl's if isLimited.
-// Outputs: 0: sRGB-coded colour; 1: no height.
+// Outputs: 0: sRGB-coded colour; 1: the wash's height.
 // Precision: mediump suffices, except for places.
 #include "pipeline/marks/shaders/mover_labels.glsl"
 #include "pipeline/marks/shaders/mixture.glsl"
@@ -24,6 +24,8 @@ layout(location = 1) out vec4 height;
 
 const float kMostBare = 0.06;  // of the ground, under a mover
 const float kInside = 3.0;     // px
+// A little below strokes' mean: what they leave bare would be pits with bright and dark rims.
+const float kWashHeight = 0.4;
 
 void main() {
   vec3 seen = texture(paint, gl_FragCoord.xy / size).rgb;
@@ -45,5 +47,5 @@ void main() {
   }
   if (isLimited) seen = mixtureOf(seen);
   colour = vec4(mix(seen, ground, bare), 1.0);
-  height = vec4(0.0);
+  height = vec4(kWashHeight * (1.0 - bare), 0.0, 0.0, 0.0);
 }
