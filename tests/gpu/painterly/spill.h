@@ -16,24 +16,26 @@ using ParameterList = std::initializer_list<std::pair<const char*, const char*>>
 
 /// Broad strokes that go astray, and nothing that could be taken for a spill; then `more`.
 inline config::ParameterValues spilling(config::ParameterValues values, ParameterList more) {
-  for (const ParameterList& each : {ParameterList{{"stroke_size", "10"},
-                                                  {"wash", "0"},
-                                                  {"ground_red", "0"},
-                                                  {"ground_green", "0"},
-                                                  {"ground_blue", "0"},
-                                                  {"canvas", "0"},
-                                                  {"relief", "0"},
-                                                  {"gloss", "0"},
-                                                  {"saturation", "1"},
-                                                  {"warmth", "0"},
-                                                  {"hue_jitter", "0"},
-                                                  {"saturation_jitter", "0"},
-                                                  {"value_jitter", "0"},
-                                                  {"wander", "1"},
-                                                  {"colour_clip", "0"},
-                                                  {"colour_threshold", "1"},
-                                                  {"detail", "0.01"}},
-                                    more}) {
+  for (const ParameterList& each :
+       {ParameterList{{"stroke_size", "10"},
+                      {"wash", "0"},
+                      {"ground_red", "0"},
+                      {"ground_green", "0"},
+                      {"ground_blue", "0"},
+                      {"canvas", "0"},
+                      {"relief", "0"},
+                      {"gloss", "0"},
+                      {"saturation", "1"},
+                      {"warmth", "0"},
+                      {"hue_jitter", "0"},
+                      {"saturation_jitter", "0"},
+                      {"value_jitter", "0"},
+                      {"wander", "1"},
+                      {"accents", "false"},  // or they would lean away from it
+                      {"colour_clip", "0"},
+                      {"colour_threshold", "1"},
+                      {"detail", "0.01"}},
+        more}) {
     for (const auto& [name, value] : each) values = values.with(name, value);
   }
   return values;

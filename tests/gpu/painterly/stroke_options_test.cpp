@@ -48,7 +48,8 @@ TEST_F(StrokeOptionsTest, ReliefIsLitOnceOrOnEachStrokeAndNeverTwice) {
   const Bytes each = paintedWith("bump", "each");
   EXPECT_GT(meanDifference(once, each), 0.3);
   const Bytes flat = paintedWith("bump", "once", "0");
-  EXPECT_EQ(paintedWith("bump", "each", "0"), flat) << "without relief it is the same";
+  // Two programs: they may round in another way.
+  EXPECT_LT(meanDifference(paintedWith("bump", "each", "0"), flat), 0.01);
   EXPECT_GT(meanDifference(each, flat), 0.3);
 }
 
