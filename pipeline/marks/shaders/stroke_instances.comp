@@ -12,6 +12,7 @@
 #include "pipeline/marks/shaders/mixture.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
 #include "pipeline/marks/shaders/stroke_instance.glsl"
+#include "pipeline/marks/shaders/stroke_label.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) readonly buffer Strokes { Stroke strokes[]; };
@@ -29,6 +30,7 @@ uniform vec3 jitter;
 uniform int points;  // 8; a uniform, so that compilers keep the loop over them
 
 const float kGreyHue = 0.4;
+const float kModelValues = 0.5;  // of the jitter: models turn, which shows it more
 const float kSpeck = 0.5;
 
 // The point `s` segments along the stroke, from its anchor on.
@@ -68,7 +70,8 @@ void main() {
   // Jitter leaves greys nearly grey.
   float chroma = max(colour.r, max(colour.g, colour.b)) - min(colour.r, min(colour.g, colour.b));
   colour += 2.0 * jitter.x * hue * (0.25 + luma) * mix(kGreyHue, 1.0, smoothstep(0.0, 0.25, chroma));
-  colour *= 1.0 + 2.0 * jitter.z * randomOf(seed, 0x25u);
+  float values = jitter.z * (isPatch(labelOfStroke(strokes[slot].state)) ? kModelValues : 1.0);
+  colour *= 1.0 + 2.0 * values * randomOf(seed, 0x25u);
   float light = smoothstep(0.2, 0.95, luma);
   // A stroke cut short on both sides is a speck with little support: paint it thinly.
   float stands = mix(kSpeck, 1.0, smoothstep(0.8, 2.2, strokes[slot].lengths.x + strokes[slot].lengths.y));

@@ -154,6 +154,7 @@ namespace {
 constexpr std::array<Look, 6> kLooks{{
     {"oil", "layers of bristle strokes, from large to small", ""},
     {"impasto", "thick paint, put on in short bold strokes that catch the light", R"(
+saturation_jitter = 0.12
 layers = 3
 stroke_size = 5.5
 layer_ratio = 1.8
@@ -168,6 +169,7 @@ saturation = 1.25
 canvas = 0.05
 )"},
     {"gouache", "flat, matt and opaque", R"(
+accents = false
 layers = 3
 stroke_size = 3.4
 detail = 0.2
@@ -181,11 +183,13 @@ relief = 0.25
 gloss = 0
 hue_jitter = 0.03
 saturation_jitter = 0.14
-value_jitter = 0.14
+value_jitter = 0.15
 wash = 1
 warmth = 0.05
 )"},
     {"pastel", "dry chalk on toned paper, which shines through", R"(
+accents = false
+saturation_jitter = 0.12
 stroke_size = 3.3
 length = 7
 layers = 3
@@ -203,9 +207,11 @@ ground_blue = 0.47
 wander = 0.22
 saturation = 1.25
 hue_jitter = 0.05
-value_jitter = 0.19
+value_jitter = 0.2
 )"},
     {"sketch", "coloured pencils on white paper", R"(
+hue_jitter = 0.03
+saturation_jitter = 0.12
 value_jitter = 0.05
 layers = 2
 stroke_size = 3
@@ -232,6 +238,8 @@ saturation = 1.2
 warmth = 0
 )"},
     {"ink", "brown ink on white paper, washed with a brush and drawn with it", R"(
+hue_jitter = 0.03
+saturation_jitter = 0.12
 value_jitter = 0.05
 layers = 3
 stroke_size = 3

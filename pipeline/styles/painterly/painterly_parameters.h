@@ -45,9 +45,9 @@ struct PainterlyParameters {
   double opacity = 1.0;
   double leaveLight = 0.0;
   double widthVariation = 0.25;
-  double hueJitter = 0.03;
-  double saturationJitter = 0.12;
-  double valueJitter = 0.12;
+  double hueJitter = 0.05;
+  double saturationJitter = 0.18;
+  double valueJitter = 0.11;
   std::filesystem::path brushFile = kNoBrushFile;
   Brush brush = Brush::kFlat;
   double relief = 1.4;
