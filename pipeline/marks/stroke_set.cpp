@@ -25,6 +25,7 @@ constexpr glm::ivec2 kArms{2, 4};         // of a stroke; segments of each
 // The bits of labels in borders (shaders/stroke_label.glsl) and in forms (surface_form.glsl).
 constexpr unsigned kBorderLabels = 8191;
 constexpr unsigned kFormLabels = 4095;
+
 // The commands that trace each list (shaders/stroke_lists.glsl), in bytes, and their words before
 // anything is listed.
 constexpr std::size_t kOnModels = 0;

@@ -4,6 +4,7 @@
 // Inputs:  the differences of the sides' colours from the place's, sRGB-coded.
 // Outputs: a weighted length, as colour_difference.glsl's: the geometric mean of both.
 // Precision: that of the colours.
+#include "pipeline/marks/shaders/colour_difference.glsl"
 const float kNewAccent = 0.11;  // from which a new stroke is an accent, and anchors are born
 // For a stroke that exists to become one, and to remain one. Far apart: each change of the painting
 // order is seen.
@@ -11,5 +12,5 @@ const float kLaterAccent = 0.3;
 const float kRemainingAccent = 0.015;
 
 float narrowness(vec3 left, vec3 right) {
-  return sqrt(max(dot(left * right, vec3(0.9, 1.5, 0.6)), 0.0));
+  return sqrt(max(dot(left * right, kColourWeights), 0.0));
 }

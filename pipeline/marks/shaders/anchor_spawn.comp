@@ -7,16 +7,16 @@
 //          scale: of the image, in octaves; depth and depthRange, near and far in metres, 0: no depth;
 //          focalPx: of the full image; motion: MotionField's field; forms, surfaceMotion
 //          (ArFrame), patches, patchesBefore: TensorField's, with patchPixels a side, if
-//          hasPatches; mover_labels.glsl's, mover_shares.glsl's; picture (ArFrame::colour, LINEAR),
+//          hasPatches; mover_labels.glsl's, mover_shares.glsl's; picture (ArFrame::camera(), LINEAR),
 //          accentPixels: births in the camera's image prefer what is narrower, px of the full image,
 //          0: they do not.
 // Outputs: anchors; counts cleared for the next frame. One invocation per cell.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
+#include "pipeline/marks/shaders/accent.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"
 #include "pipeline/marks/shaders/anchor_slots.glsl"
-#include "pipeline/marks/shaders/accent.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) buffer Anchors { Anchor anchors[]; };
@@ -156,8 +156,8 @@ bool isOnAccent(vec2 px) {
 
 // `patchesTaken`: those that the anchor is not to lie on; its own is added.
 // `before`: how many anchors of its kind the cell has; `factor`: of their target.
-void spawn(ivec2 cell, uint number, uint before, float factor, bool onObject, bool onMover, inout uint taken,
-           inout uint patchesTaken) {
+void spawn(ivec2 cell, uint number, uint before, float factor, bool onObject, bool onMover,
+           inout uint taken, inout uint patchesTaken) {
   if (number >= freeCount) return;
   uint hash = hashOf(cell, hashOf(salt) + number);  // separates the sequences of different frames
   int part = freePart(cell, taken, hash);

@@ -211,17 +211,17 @@ bool isWanted(uint slot, vec2 px, float seen, bool isResting, bool isNew) {
   float focused = focusStrength * focusAt(px);
   float detail = (1.0 + kFocusDetail * focused) * seen + detailSpread * (hash - 0.5);
   bool isAccent = !isModel && (strokes[slot].state & kAccent) != 0u;
-  float least = detailBand.x * (isAccent ? kAccentDetail : 1.0);
+  float leastDetail = detailBand.x * (isAccent ? kAccentDetail : 1.0);
   bool was = !isNew && (strokes[slot].state & kWanted) != 0u;
   float wider = was ? 1.0 - (isResting ? restSlack : slack) : isResting ? 1.0 + 0.5 * restSlack : 1.0;
-  bool wanted = detail >= least * wider && detail <= detailBand.y / wider;
+  bool wanted = detail >= leastDetail * wider && detail <= detailBand.y / wider;
   if (focusStrength > 0.0) {
     float part = partOf(rankOf(anchors[slot].ageAndRank), scaleAt(px));
     // Patches of models are often smaller than broad strokes: only the finest layer thins out there.
     float least = isModel && layer.y > 2.0 ? (layer.y - 2.0) / (layer.y - 1.0) : 0.0;
     float fineness = max(finenessAt(px), least);
     // What finer strokes would hide is seen where they are not painted.
-    wanted = wanted || (detail >= least * wider &&
+    wanted = wanted || (detail >= leastDetail * wider &&
                         !isAmong(layerShare(fineness, layer.x + 1.0, layer.y), part, !was));
     wanted = wanted && isAmong(layerShare(fineness, layer.x, layer.y), part, was);
   }

@@ -122,8 +122,8 @@ bool reachesLabels(vec2 px) {
   return reachesObjects(px, segment, objectBounds, pixelsOfFull);
 }
 
-// The difference of the background's colour from the stroke's; where layers are apart, it is 0 under a mover,
-// whose strokes ask, too.
+// The difference of the background's colour from the stroke's. Strokes on movers ask, too: where the
+// reduced images of layers are apart, it is 0 there.
 vec3 unlikeAt(vec2 px) {
   vec4 there = textureLod(paint, px / fullSize, 0.0);
   return there.rgb - there.a * walks[gl_LocalInvocationIndex].colour;

@@ -63,6 +63,14 @@ std::size_t common(const Slots& a, const Slots& b) {
       std::ranges::count_if(a, [&](std::size_t slot) { return b.contains(slot); }));
 }
 
+TEST_F(StrokeFocus, WantsNoStrokesWhereThereIsTooLittleDetail) {
+  StrokeRule rule = evenly(0.5F);
+  EXPECT_FALSE(wantedAfter(rule, 1).empty()) << "the control";
+  rule.detailBand = {1000.0F, 1e9F};
+  beginAnew();
+  EXPECT_EQ(wantedAfter(rule, 1), Slots{});
+}
+
 TEST_F(StrokeFocus, WithoutOneNothingIsThinned) {
   const Slots all = wantedAfter(fineRule(), 2);
   EXPECT_EQ(all.size(), alive().size());

@@ -1,4 +1,4 @@
-// What is narrow stays to be seen under paint that is as broad.
+// Narrow things stay to be seen under strokes that are as broad.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
