@@ -52,6 +52,8 @@ const int kHoleReach = 8;  // cells
 const int kOutlineReach = 4;  // cells: a mover that has left is taken back from its outline inwards
 const float kHoleUnlike = 0.012;  // of colour: a hole in a mover that shows no background
 const float kHoleDeviations = 1.5;  // of the noise, in a mean of nine
+const int kCrackReach = 5;  // cells, to both sides
+const float kCrackAlike = 0.03;  // of colour: what is seen goes on over a crack
 
 // The colour of the background around, in a window that grows until it has seen enough, and how
 // many blocks of it were seen.
@@ -203,6 +205,28 @@ bool isUnlikeInHole(ivec2 cell, ivec2 size) {
   return sum.a > 0.0 && weightedLength(sum.rgb / sum.a) > least;
 }
 
+// How long the mover has been seen to move whose colours go on over a cell, from one side to the other,
+// as if nothing were remembered there; -1 if there is none. A mover that crosses things of its own
+// colours has such cracks, along which it looks as what is behind it does.
+float maturityOverCrack(ivec2 cell, ivec2 size, vec3 now) {
+  float most = -1.0;
+  for (int i = 0; i < 4 * reach; ++i) {
+    ivec2 along = i == 0 ? ivec2(1, 0) : ivec2(i - 2, 1);
+    vec2 found = vec2(-1.0);
+    for (int side = 0; side < 2; ++side) {
+      for (int away = 1; away <= kCrackReach && found[side] < 0.0; ++away) {
+        ivec2 at = clamp(cell + (side == 0 ? away : -away) * along, ivec2(0), size - 1);
+        vec2 there = texelFetch(candidates, at, 0).rg;
+        if (there.r < 0.5 || there.g < 0.5) continue;
+        if (apart(texelFetch(picture, at, 0).rgb, now) > kCrackAlike) break;
+        found[side] = texelFetch(evidence, at, 0).b;
+      }
+    }
+    most = max(most, min(found.x, found.y));
+  }
+  return most;
+}
+
 void main() {
   if (isBeyond(kBusyCommand)) return;
   ivec2 block = blockOf(busyWords[busyAt(int(gl_WorkGroupID.x))]);
@@ -242,6 +266,10 @@ void main() {
     enclosing = maturityOfEnclosing(cell, size, mayBeHole ? kHoleReach : kOutlineReach);
   }
   bool isFilled = mayBeHole && enclosing >= 0.0 && isUnlikeInHole(cell, size);
+  if (mayBeHole && !isFilled) {
+    enclosing = maturityOverCrack(cell, size, texelFetch(picture, cell, 0).rgb);
+    isFilled = enclosing > kMatureSeconds;
+  }
   isMover = isMover || isFilled;
   bool isResting = changes < (isStanding ? kRestingChange : kMovingRestingChange);
   float rest = isMover && isResting ? max(past.g, 0.0) + stepSeconds : 0.0;

@@ -1,5 +1,6 @@
 // What moves before things that are nearly of its own colour is a mover there, too.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -128,6 +129,45 @@ TEST_F(SlightMoversTest, AMoverHasNoHolesInRows) {
     if (i < 7) continue;
     EXPECT_GT(labelledShare(view, rows), 0.9) << i;
   }
+}
+
+/// What is behind the disc turns from darker to lighter than it: along a line, it is of the disc's
+/// colour.
+TEST_F(SlightMoversTest, AMoverHasNoCrackWhereItLooksAsWhatIsBehindIt) {
+  constexpr double kLineX = 160.0;
+  constexpr double kSlope = 6.0;  // levels a px
+  const auto hasCrack = [&](const View& view, double slitPx) {
+    hal::Image image = picture(view, [](glm::dvec2) { return false; });
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) {
+        const double along = x + 0.5 - kLineX;
+        const bool isSlit = std::abs(along) < 0.5 * slitPx;
+        const bool isDisc = glm::distance(glm::dvec2(x, y), view.disc) < view.radius;
+        if (isDisc && !isSlit) continue;
+        const glm::dvec3 behind = glm::dvec3(240.0, 120.0, 20.0) + kSlope * along;
+        std::uint8_t* const p = image.row(0, y).data() + std::ptrdiff_t{4} * x;
+        for (int c = 0; c < 3; ++c) {
+          // In a slit, something else was and is seen.
+          const double level = slitPx > 0.0 && isSlit ? 60.0 : behind[c];
+          p[c] = static_cast<std::uint8_t>(std::clamp(level, 0.0, 255.0));
+        }
+      }
+    }
+    return image;
+  };
+  const Region line = [](glm::dvec2 px) { return std::abs(px.x - kLineX) < 2.0; };
+  const auto shareOnLine = [&](double slitPx) {
+    layers_->reset();
+    for (int i = 0; i < 12; ++i) seeImage(hasCrack({}, slitPx));
+    View view{.radius = 60.0};
+    for (int i = 0; i < 14; ++i) {
+      view.disc = {90.0 + 5.0 * i, 120.0};
+      seeDiscMoved(hasCrack(view, slitPx), view, {5.0, 0.0}, Texture::kOutline);
+    }
+    return labelledShare(view, line);
+  };
+  EXPECT_GT(shareOnLine(0.0), 0.7);
+  EXPECT_LT(shareOnLine(6.0), 0.5) << "the control: a slit";
 }
 
 /// The control: the place of the same colour beside the disc belongs to no mover.
