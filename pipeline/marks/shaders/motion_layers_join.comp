@@ -167,27 +167,43 @@ bool continuesBackground(ivec2 cell, ivec2 size) {
   return before - now > kLikelier && now < kAlike * before;
 }
 
-// How long the movers on all sides of a cell have been seen to move; -1 if there is a side without
-// any within `farthest` cells, but for those beyond the image's border. Steps of one parity would find
-// no side of a hole in every second row.
-float maturityOfEnclosing(ivec2 cell, ivec2 size, int farthest) {
-  float most = 0.0;
-  for (int y = -reach; y <= reach; ++y) {
-    for (int x = -reach; x <= reach; ++x) {
-      if (x == 0 && y == 0) continue;
-      bool isMet = false;
-      for (int away = 1; away <= farthest && !isMet; away += 1 + away / 2) {
-        ivec2 at = cell + away * ivec2(x, y);
-        bool isOutside = any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size));
-        vec2 there = isOutside ? vec2(1.0) : texelFetch(candidates, at, 0).rg;
-        isMet = isOutside || (there.g > 0.5 && there.r > 0.5);
-        if (isMet && !isOutside) most = max(most, texelFetch(evidence, at, 0).b);
-      }
-      if (!isMet) return -1.0;
+// The movers on the eight sides of a cell, those within `farthest` cells. Steps of one parity would
+// find no side of a hole in every second row.
+struct Sides {
+  uint met;  // a bit for each side; opposite ones are beside each other. The image's border counts, too
+  uint alike;  // those whose mover, mature and within kCrackReach, is of the cell's colour
+  float maturity;  // of the one that has been seen to move for longest
+};
+
+Sides sidesOf(ivec2 cell, ivec2 size, int farthest) {
+  Sides sides = Sides(0u, 0u, 0.0);
+  for (int i = 0; i < 8 * reach; ++i) {
+    ivec2 along = i < 2 ? ivec2(1, 0) : ivec2(i / 2 - 2, 1);
+    if ((i & 1) != 0) along = -along;
+    for (int away = 1; away <= farthest; away += 1 + away / 2) {
+      ivec2 at = cell + away * along;
+      bool isOutside = any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size));
+      vec2 there = isOutside ? vec2(1.0) : texelFetch(candidates, at, 0).rg;
+      if (there.g < 0.5 || there.r < 0.5) continue;
+      sides.met |= 1u << i;
+      if (isOutside) break;
+      float maturity = texelFetch(evidence, at, 0).b;
+      vec3 unlike = texelFetch(picture, at, 0).rgb - texelFetch(picture, cell, 0).rgb;
+      bool isNear = maturity > kMatureSeconds && away <= kCrackReach;
+      if (isNear && weightedLength(unlike) < kCrackAlike) sides.alike |= 1u << i;
+      sides.maturity = max(sides.maturity, maturity);
+      break;
     }
   }
-  return most;
+  return sides;
 }
+
+bool isEnclosed(Sides sides) { return sides.met == 0xFFu; }
+
+// Whether the mover's colours go on over the cell, from one side to the other, as if nothing were
+// remembered there. A mover that crosses things of its own colours has such cracks, along which it
+// looks as what is behind it does.
+bool isInCrack(Sides sides) { return (sides.alike & sides.alike >> 1u & 0x55u) != 0u; }
 
 // Whether what is seen in a hole in a mover is not what is remembered there, though it is too like
 // it, or too like its shadow, to be other content by itself: the mean over the hole around the cell.
@@ -203,28 +219,6 @@ bool isUnlikeInHole(ivec2 cell, ivec2 size) {
   }
   float least = kHoleUnlike + kHoleDeviations * noise;
   return sum.a > 0.0 && weightedLength(sum.rgb / sum.a) > least;
-}
-
-// How long the mover has been seen to move whose colours go on over a cell, from one side to the other,
-// as if nothing were remembered there; -1 if there is none. A mover that crosses things of its own
-// colours has such cracks, along which it looks as what is behind it does.
-float maturityOverCrack(ivec2 cell, ivec2 size, vec3 now) {
-  float most = -1.0;
-  for (int i = 0; i < 4 * reach; ++i) {
-    ivec2 along = i == 0 ? ivec2(1, 0) : ivec2(i - 2, 1);
-    vec2 found = vec2(-1.0);
-    for (int side = 0; side < 2; ++side) {
-      for (int away = 1; away <= kCrackReach && found[side] < 0.0; ++away) {
-        ivec2 at = clamp(cell + (side == 0 ? away : -away) * along, ivec2(0), size - 1);
-        vec2 there = texelFetch(candidates, at, 0).rg;
-        if (there.r < 0.5 || there.g < 0.5) continue;
-        if (apart(texelFetch(picture, at, 0).rgb, now) > kCrackAlike) break;
-        found[side] = texelFetch(evidence, at, 0).b;
-      }
-    }
-    most = max(most, min(found.x, found.y));
-  }
-  return most;
 }
 
 void main() {
@@ -261,19 +255,16 @@ void main() {
   bool isMover = !isLight && hasCause && (isOther || (wasMover && own.r > 0.15 && others > 0.3));
   bool mayBeHole = !isMover && !isEverywhere && !isSwitched && hasCause && carried > 0.5;
   bool mayContinue = isMover && isDoubted;
-  float enclosing = -1.0;
-  if (isStanding && (mayBeHole || mayContinue)) {
-    enclosing = maturityOfEnclosing(cell, size, mayBeHole ? kHoleReach : kOutlineReach);
+  Sides sides = Sides(0u, 0u, 0.0);
+  if (mayBeHole || (isStanding && mayContinue)) {
+    sides = sidesOf(cell, size, mayBeHole ? kHoleReach : kOutlineReach);
   }
-  bool isFilled = mayBeHole && enclosing >= 0.0 && isUnlikeInHole(cell, size);
-  if (mayBeHole && !isFilled) {
-    enclosing = maturityOverCrack(cell, size, texelFetch(picture, cell, 0).rgb);
-    isFilled = enclosing > kMatureSeconds;
-  }
+  bool isFilled = mayBeHole && (isInCrack(sides) || (isStanding && isEnclosed(sides) &&
+                                                     isUnlikeInHole(cell, size)));
   isMover = isMover || isFilled;
   bool isResting = changes < (isStanding ? kRestingChange : kMovingRestingChange);
   float rest = isMover && isResting ? max(past.g, 0.0) + stepSeconds : 0.0;
-  float maturity = isMover ? max(past.b, isFilled ? enclosing : past.b) : 0.0;
+  float maturity = isMover ? max(past.b, isFilled ? sides.maturity : past.b) : 0.0;
   bool isYoung = isMover && !isFilled && maturity <= kMatureSeconds;
   // What was a mover when the camera began to look, or stood there for long, has left. Flow and the
   // motion of movers reach beyond their outlines: neither makes such a place older. While the camera
@@ -289,7 +280,7 @@ void main() {
     maturity = max(maturity, maturityAround(cell, size, now, known.rgb));
   }
   // Later, it would take a mover that rests beside things of its own colour for such a place.
-  mayContinue = mayContinue && isStanding && rest > kLeastRest && enclosing < 0.0;
+  mayContinue = mayContinue && isStanding && rest > kLeastRest && !isEnclosed(sides);
   hasLeft = hasLeft || (mayContinue && continuesBackground(cell, size));
   if (hasLeft) maturity = kHasLeft;
   // A cell beside a mature mover joins no earlier than that mover, which crept over it when no motion
