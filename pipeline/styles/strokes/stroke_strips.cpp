@@ -21,6 +21,10 @@ constexpr float kBendPx = 0.3F;
 /// bend: what noise of it changes must be less than is seen.
 constexpr float kLongBendPx = 0.075F;
 
+/// For which a slot of short strokes has room by curvature: not all slots have strokes, and few of
+/// those bend often. stroke_offsets.comp thins out bends where that is too little.
+constexpr std::size_t kShortVertices = 8;
+
 std::size_t verticesOf(std::size_t quads) {
   return 2 * quads + 4;
 }
@@ -34,7 +38,12 @@ gpu::ShaderDefines definesOf(StrokeForm form) {
   return form == StrokeForm::kLong ? gpu::ShaderDefines{{"LONG"}} : gpu::ShaderDefines{};
 }
 
-/// The number of quads for which each slot has room.
+/// The number of vertices for which each slot has room, where quads follow curvature.
+std::size_t roomByCurvature(StrokeForm form) {
+  return form == StrokeForm::kLong ? verticesOf(curvatureQuads(form)) : kShortVertices;
+}
+
+/// The number of quads for which each slot has room, where all have as many.
 std::size_t evenQuads(std::size_t slots, StrokeForm form) {
   const std::size_t vertices = kMaxBytes / StrokeStrips::kVertexBytes / slots;
   return std::clamp(std::max<std::size_t>(vertices / 2, 2) - 2, curvatureQuads(form), kThesisQuads);
@@ -66,7 +75,7 @@ void StrokeStripMaker::lay(const gpu::Buffer& instances, const gpu::Buffer& draw
   const bool isEven = quads == StrokeQuads::kThesis;
   const std::size_t even = isEven ? evenQuads(slots, form_) : 0;
   if (!strips.vertices || strips.quads != quads) {
-    const std::size_t each = verticesOf(isEven ? even : curvatureQuads(form_));
+    const std::size_t each = isEven ? verticesOf(even) : roomByCurvature(form_);
     strips.plans = gpu::Buffer(slots * kPlanBytes, gpu::BufferUsage::kDynamic);
     strips.commands = gpu::Buffer(kStripParts * gpu::kDrawCommandBytes, gpu::BufferUsage::kDynamic);
     strips.vertices = {};
@@ -86,6 +95,7 @@ void StrokeStripMaker::lay(const gpu::Buffer& instances, const gpu::Buffer& draw
       .storage("Plans", strips.plans)
       .storage("Commands", strips.commands)
       .storage("BusyBlocks", byMovers ? *clipping.onlyMovers->words : drawn)
+      .set("room", static_cast<unsigned>(strips.vertices.sizeBytes() / StrokeStrips::kVertexBytes))
       .set("even", static_cast<unsigned>(even))
       .set("clips", clipping.clips ? 1 : 0)
       .set("byMovers", byMovers ? 1 : 0)

@@ -69,8 +69,12 @@ class StripTest : public support::GlTest {
   /// Fills strips_; slots are more than there are strokes.
   void lay(const std::vector<LaidStroke>& strokes, StrokeQuads quads = StrokeQuads::kCurvature,
            const StripClipping& clipping = {}) {
+    layInSlots(3 * strokes.size() + 5, strokes, quads, clipping);
+  }
+  void layInSlots(std::size_t slotCount, const std::vector<LaidStroke>& strokes,
+                  StrokeQuads quads = StrokeQuads::kCurvature, const StripClipping& clipping = {}) {
     std::vector<LaidStroke> slots = strokes;
-    slots.resize(strokes.size() + 5);
+    slots.resize(slotCount);
     const auto instances =
         gpu::Buffer::of(std::span<const LaidStroke>(slots), gpu::BufferUsage::kDynamic);
     const std::array<std::uint32_t, 4> command{0, static_cast<std::uint32_t>(strokes.size()), 0, 0};

@@ -151,6 +151,34 @@ TEST_F(StripsTest, StaysOnTheSplineWhateverItDoes) {
 }
 
 /// Where along the brush a place is does not depend on how many quads there are.
+/// There is room for two quads a slot. Where all slots have strokes that bend, all bend less often.
+TEST_F(StripsTest, BendsLessOftenWhereThereIsNotRoomForAll) {
+  constexpr std::size_t kStrokes = 300;
+  std::vector<LaidStroke> strokes;
+  for (std::size_t i = 0; i < kStrokes; ++i) {
+    const float x = 50.0F + 20.0F * static_cast<float>(i % 20);
+    strokes.push_back(arc({x, 2.0F * static_cast<float>(i)}, 90.0F, 6.0F));
+  }
+  const std::size_t each = only(strokes[0]).size();
+  ASSERT_GT(each, 14U) << "so that there is something to leave out";
+  strips_ = {};
+  lay(strokes);
+  EXPECT_EQ(vertices().size(), each * kStrokes) << "the control: there is room for all";
+
+  strips_ = {};
+  layInSlots(kStrokes, strokes);
+  const std::vector<StripVertex> strips = vertices();
+  ASSERT_EQ(strips.size(), 8U * kStrokes);
+  for (std::size_t i = 0; i < kStrokes; ++i) {
+    const std::vector<glm::dvec2> middles =
+        middlesOf(std::span<const StripVertex>(strips).subspan(8 * i, 8));
+    ASSERT_EQ(middles.size(), 3U);
+    const double off = distanceTo(oracles::splinePlace(pointsOf(strokes[i]), 4.5), middles);
+    EXPECT_LT(off, 20.0) << "of a stroke of 90 px that nearly closes";
+    EXPECT_LT(glm::distance(middles[0], glm::dvec2(strokes[i].points[0])), 5.0);
+  }
+}
+
 TEST_F(StripsTest, ABrushLiesEvenlyAlong) {
   const LaidStroke stroke = arc({30.0F, 30.0F}, 40.0F, 2.0F);
   for (const StrokeQuads quads : {StrokeQuads::kCurvature, StrokeQuads::kThesis}) {
