@@ -35,7 +35,8 @@ struct MotionLayersOptions {
 /// Piccardi, "Background subtraction techniques: a review", 2004.)
 ///
 /// A mover's plain parts, and those along an edge, go with the others; so do parts all around which
-/// it is, and which are not what is remembered there. What comes in from outside
+/// it is, and which are not what is remembered there, and cracks along which it looks as what is
+/// behind it does, but over which its colours go on. What comes in from outside
 /// before a camera that stands is a mover at once. Virtual models are looked through: what moves
 /// behind them is known, too. Under parallax, near things may count as movers.
 ///
