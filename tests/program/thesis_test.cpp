@@ -124,7 +124,7 @@ TEST_F(Thesis, MakesTheFiguresOfSettings) {
             2.0 * readingOf(report, "40", "weight_095_pop"));
   EXPECT_GT(readingOf(report, "41", "bleeding_off"), 1.05 * readingOf(report, "41", "bleeding_on"));
   EXPECT_GT(readingOf(report, "42", "fine_contrast_on"),
-            1.005 * readingOf(report, "42", "fine_contrast_off"));
+            1.015 * readingOf(report, "42", "fine_contrast_off"));
 }
 
 TEST_F(Thesis, TellsABlankPictureFromOneThatShowsSomething) {
