@@ -30,13 +30,13 @@ glm::ivec2 gridOf(hal::FrameSize full, int cellPixels) {
 }
 
 /// Slots for every cell, including those beyond the border, at a density halfway between target and
-/// deathAbove, for detail everywhere, for the anchors that fade out, and for those that other
-/// content covers.
+/// deathAbove, for the anchors that fade out, and for those that other content covers. Detail adds
+/// to the target alone.
 std::uint32_t slotsFor(glm::ivec2 grid, const DensityRule& rule) {
   const int cells = (grid.x + 2) * (grid.y + 2);
   const int plain = cells * (rule.target + rule.deathAbove);
-  const auto target = static_cast<float>(2 * cells * rule.target);
-  const int twice = plain + static_cast<int>((rule.detailFactor - 1.0F) * target);
+  const auto twiceTarget = static_cast<float>(2 * cells * rule.target);
+  const int twice = plain + static_cast<int>((rule.detailFactor - 1.0F) * twiceTarget);
   const int fading = twice / 10;
   const int covered = plain / 4;
   return static_cast<std::uint32_t>((twice + fading + covered + 1) / 2);

@@ -52,7 +52,7 @@ const int kHoleReach = 8;  // cells
 const int kOutlineReach = 4;  // cells: a mover that has left is taken back from its outline inwards
 const float kHoleUnlike = 0.012;  // of colour: a hole in a mover that shows no background
 const float kHoleDeviations = 1.5;  // of the noise, in a mean of nine
-const int kCrackReach = 5;  // cells, to both sides
+const int kCrackReach = 4;  // cells, to both sides
 const float kCrackAlike = 0.03;  // of colour: what is seen goes on over a crack
 
 // The colour of the background around, in a window that grows until it has seen enough, and how
@@ -167,14 +167,14 @@ bool continuesBackground(ivec2 cell, ivec2 size) {
   return before - now > kLikelier && now < kAlike * before;
 }
 
-// The movers on the eight sides of a cell, those within `farthest` cells. Steps of one parity would
-// find no side of a hole in every second row.
+// The movers on the eight sides of a cell, a bit for each side; opposite ones are beside each other.
 struct Sides {
-  uint met;  // a bit for each side; opposite ones are beside each other. The image's border counts, too
+  uint met;  // the image's border counts, too
   uint alike;  // those whose mover, mature and within kCrackReach, is of the cell's colour
   float maturity;  // of the one that has been seen to move for longest
 };
 
+// Those within `farthest` cells. Steps of one parity would find no side of a hole in every second row.
 Sides sidesOf(ivec2 cell, ivec2 size, int farthest) {
   Sides sides = Sides(0u, 0u, 0.0);
   for (int i = 0; i < 8 * reach; ++i) {
@@ -200,9 +200,8 @@ Sides sidesOf(ivec2 cell, ivec2 size, int farthest) {
 
 bool isEnclosed(Sides sides) { return sides.met == 0xFFu; }
 
-// Whether the mover's colours go on over the cell, from one side to the other, as if nothing were
-// remembered there. A mover that crosses things of its own colours has such cracks, along which it
-// looks as what is behind it does.
+// Whether the mover's colours go on over the cell, from one side to the other. Where a mover crosses
+// what is of its own colours, it looks along lines as what is remembered there does.
 bool isInCrack(Sides sides) { return (sides.alike & sides.alike >> 1u & 0x55u) != 0u; }
 
 // Whether what is seen in a hole in a mover is not what is remembered there, though it is too like
@@ -259,7 +258,9 @@ void main() {
   if (mayBeHole || (isStanding && mayContinue)) {
     sides = sidesOf(cell, size, mayBeHole ? kHoleReach : kOutlineReach);
   }
-  bool isFilled = mayBeHole && (isInCrack(sides) || (isStanding && isEnclosed(sides) &&
+  // What has just joined the background is no crack in what has yet to join.
+  bool isCrack = past.g >= 0.0 && isInCrack(sides);
+  bool isFilled = mayBeHole && (isCrack || (isStanding && isEnclosed(sides) &&
                                                      isUnlikeInHole(cell, size)));
   isMover = isMover || isFilled;
   bool isResting = changes < (isStanding ? kRestingChange : kMovingRestingChange);

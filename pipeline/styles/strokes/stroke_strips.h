@@ -13,7 +13,8 @@ namespace pleinair::styles {
 
 /// Into how many quads a stroke is broken.
 enum class StrokeQuads {
-  kCurvature,  ///< as few as its curvature needs; long strokes have nine at least
+  kCurvature,  ///< as few as its curvature needs, or two where storage is short of that; long
+               ///< strokes have nine at least
   kThesis,     ///< 4 (n + 2) for n + 1 control points (§4.4): 36, evenly; fewer where storage is
                ///< short of them
 };
@@ -65,9 +66,9 @@ class StrokeStripMaker {
                             StrokeForm form = StrokeForm::kShort);
 
   /// Fills `strips` with strokes of the constructor's form, such as marks::StrokeSet's instances()
-  /// and command(). They are
-  /// allocated at the first call and where `quads` is other than before: hal::Failure where
-  /// the GPU has no memory for it.
+  /// and command(). They are allocated at the first call, for as many strokes as `instances` has
+  /// room for, and where `quads` is other than before: hal::Failure where the GPU has no memory
+  /// for it. Precondition: `instances` is of the same size as at the first call.
   void lay(const gpu::Buffer& instances, const gpu::Buffer& drawn, StrokeQuads quads,
            StrokeStrips& strips, const StripClipping& clipping = {});
 

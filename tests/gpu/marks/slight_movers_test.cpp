@@ -136,7 +136,7 @@ TEST_F(SlightMoversTest, AMoverHasNoHolesInRows) {
 TEST_F(SlightMoversTest, AMoverHasNoCrackWhereItLooksAsWhatIsBehindIt) {
   constexpr double kLineX = 160.0;
   constexpr double kSlope = 6.0;  // levels a px
-  const auto hasCrack = [&](const View& view, double slitPx) {
+  const auto beforeSlope = [&](const View& view, double slitPx) {
     hal::Image image = picture(view, [](glm::dvec2) { return false; });
     for (int y = 0; y < kSize.height; ++y) {
       for (int x = 0; x < kSize.width; ++x) {
@@ -158,11 +158,11 @@ TEST_F(SlightMoversTest, AMoverHasNoCrackWhereItLooksAsWhatIsBehindIt) {
   const Region line = [](glm::dvec2 px) { return std::abs(px.x - kLineX) < 2.0; };
   const auto shareOnLine = [&](double slitPx) {
     layers_->reset();
-    for (int i = 0; i < 12; ++i) seeImage(hasCrack({}, slitPx));
+    for (int i = 0; i < 12; ++i) seeImage(beforeSlope({}, slitPx));
     View view{.radius = 60.0};
     for (int i = 0; i < 14; ++i) {
       view.disc = {90.0 + 5.0 * i, 120.0};
-      seeDiscMoved(hasCrack(view, slitPx), view, {5.0, 0.0}, Texture::kOutline);
+      seeDiscMoved(beforeSlope(view, slitPx), view, {5.0, 0.0}, Texture::kOutline);
     }
     return labelledShare(view, line);
   };

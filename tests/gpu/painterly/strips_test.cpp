@@ -150,7 +150,6 @@ TEST_F(StripsTest, StaysOnTheSplineWhateverItDoes) {
   EXPECT_GT(quads, 1.2);
 }
 
-/// Where along the brush a place is does not depend on how many quads there are.
 /// There is room for two quads a slot. Where all slots have strokes that bend, all bend less often.
 TEST_F(StripsTest, BendsLessOftenWhereThereIsNotRoomForAll) {
   constexpr std::size_t kStrokes = 300;
@@ -179,6 +178,7 @@ TEST_F(StripsTest, BendsLessOftenWhereThereIsNotRoomForAll) {
   }
 }
 
+/// Where along the brush a place is does not depend on how many quads there are.
 TEST_F(StripsTest, ABrushLiesEvenlyAlong) {
   const LaidStroke stroke = arc({30.0F, 30.0F}, 40.0F, 2.0F);
   for (const StrokeQuads quads : {StrokeQuads::kCurvature, StrokeQuads::kThesis}) {
