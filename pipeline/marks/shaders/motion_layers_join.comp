@@ -167,14 +167,16 @@ bool continuesBackground(ivec2 cell, ivec2 size) {
   return before - now > kLikelier && now < kAlike * before;
 }
 
-// The movers on the eight sides of a cell, a bit for each side; opposite ones are beside each other.
+// The movers on the eight sides of a cell. Each side has a bit, and opposite sides have neighbouring
+// bits.
 struct Sides {
   uint met;  // the image's border counts, too
   uint alike;  // those whose mover, mature and within kCrackReach, is of the cell's colour
   float maturity;  // of the one that has been seen to move for longest
 };
 
-// Those within `farthest` cells. Steps of one parity would find no side of a hole in every second row.
+// The sides of a cell within `farthest` cells. Steps of one parity would find no side of a hole in
+// every second row.
 Sides sidesOf(ivec2 cell, ivec2 size, int farthest) {
   Sides sides = Sides(0u, 0u, 0.0);
   for (int i = 0; i < 8 * reach; ++i) {
@@ -200,8 +202,8 @@ Sides sidesOf(ivec2 cell, ivec2 size, int farthest) {
 
 bool isEnclosed(Sides sides) { return sides.met == 0xFFu; }
 
-// Whether the mover's colours go on over the cell, from one side to the other. Where a mover crosses
-// what is of its own colours, it looks along lines as what is remembered there does.
+// Whether a mover's colours go on over the cell, from one side to the other. A mover that crosses
+// things of its own colours looks like what is remembered there, along lines: cracks in its label.
 bool isInCrack(Sides sides) { return (sides.alike & sides.alike >> 1u & 0x55u) != 0u; }
 
 // Whether what is seen in a hole in a mover is not what is remembered there, though it is too like

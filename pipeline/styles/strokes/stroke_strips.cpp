@@ -21,8 +21,9 @@ constexpr float kBendPx = 0.3F;
 /// bend: what noise of it changes must be less than is seen.
 constexpr float kLongBendPx = 0.075F;
 
-/// For which a slot of short strokes has room by curvature: not all slots have strokes, and few of
-/// those bend often. stroke_offsets.comp thins out bends where that is too little.
+/// Vertices that each slot of short strokes has room for, where quads follow curvature: not all
+/// slots hold strokes, and few strokes bend often. stroke_offsets.comp thins out bends where that
+/// is too little.
 constexpr std::size_t kShortVertices = 8;
 
 std::size_t verticesOf(std::size_t quads) {

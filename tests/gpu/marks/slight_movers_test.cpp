@@ -131,12 +131,12 @@ TEST_F(SlightMoversTest, AMoverHasNoHolesInRows) {
   }
 }
 
-/// What is behind the disc turns from darker to lighter than it: along a line, it is of the disc's
-/// colour.
+/// The wall is darker than the disc on the left and lighter on the right: along a line, both are of
+/// one colour.
 TEST_F(SlightMoversTest, AMoverHasNoCrackWhereItLooksAsWhatIsBehindIt) {
   constexpr double kLineX = 160.0;
   constexpr double kSlope = 6.0;  // levels a px
-  const auto beforeSlope = [&](const View& view, double slitPx) {
+  const auto discBeforeRamp = [&](const View& view, double slitPx) {
     hal::Image image = picture(view, [](glm::dvec2) { return false; });
     for (int y = 0; y < kSize.height; ++y) {
       for (int x = 0; x < kSize.width; ++x) {
@@ -147,7 +147,7 @@ TEST_F(SlightMoversTest, AMoverHasNoCrackWhereItLooksAsWhatIsBehindIt) {
         const glm::dvec3 behind = glm::dvec3(240.0, 120.0, 20.0) + kSlope * along;
         std::uint8_t* const p = image.row(0, y).data() + std::ptrdiff_t{4} * x;
         for (int c = 0; c < 3; ++c) {
-          // In a slit, something else was and is seen.
+          // The slit shows the wall, which is dark there, with and without the disc.
           const double level = slitPx > 0.0 && isSlit ? 60.0 : behind[c];
           p[c] = static_cast<std::uint8_t>(std::clamp(level, 0.0, 255.0));
         }
@@ -158,11 +158,11 @@ TEST_F(SlightMoversTest, AMoverHasNoCrackWhereItLooksAsWhatIsBehindIt) {
   const Region line = [](glm::dvec2 px) { return std::abs(px.x - kLineX) < 2.0; };
   const auto shareOnLine = [&](double slitPx) {
     layers_->reset();
-    for (int i = 0; i < 12; ++i) seeImage(beforeSlope({}, slitPx));
+    for (int i = 0; i < 12; ++i) seeImage(discBeforeRamp({}, slitPx));
     View view{.radius = 60.0};
     for (int i = 0; i < 14; ++i) {
       view.disc = {90.0 + 5.0 * i, 120.0};
-      seeDiscMoved(beforeSlope(view, slitPx), view, {5.0, 0.0}, Texture::kOutline);
+      seeDiscMoved(discBeforeRamp(view, slitPx), view, {5.0, 0.0}, Texture::kOutline);
     }
     return labelledShare(view, line);
   };

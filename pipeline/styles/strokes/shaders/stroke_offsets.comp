@@ -21,11 +21,11 @@ uniform bool clips;
 uniform bool byMovers;
 uniform uint busyWord;
 
-const int kThinnings = 2;  // after which six breaks are one
+const int kThinnings = 2;  // they leave one of six breaks
 
 shared uvec2 before[128];  // vertices: of carried strokes in y
 
-// Every second break, or the only one.
+// Keeps every second break, or the only one.
 uint thinned(uint breaks) {
   uint kept = bitCount(breaks) == 1 ? breaks : 0u;
   while (breaks != 0u) {
