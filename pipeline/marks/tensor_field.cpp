@@ -24,9 +24,9 @@ namespace {
 
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr int kRegionPixels = 8;
-constexpr std::size_t kEdgeWords = 1 + 128;  // shaders/edge_bins.glsl
+constexpr std::size_t kEdgeWords = 2 + 128;  // shaders/edge_bins.glsl
 constexpr double kMoverSigma = 1.5;          // regions; movers have no coarser levels
-constexpr float kMinEdge = 0.05F;            // of luma: the level of sensor noise
+constexpr float kMinEdge = 0.05F;            // P: the level of sensor noise
 constexpr GLbitfield kWritten = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
 
 glm::ivec2 itemsOf(const gpu::Texture& texture) {
@@ -124,14 +124,14 @@ struct TensorField::State {
     float slack = 0.0F;
   };
   void findEdges(const scene::ArFrame& frame, const gpu::Texture& picture,
-                 const MotionLayers* layers, float share);
+                 const MotionLayers* layers, float share, float leading);
   void sumRegions(const scene::ArFrame& frame, const MotionField& motion,
                   const MotionLayers* layers, const Past& past);
   void sumModels(const scene::ArFrame& frame, double form, const Past& past);
 };
 
 void TensorField::State::findEdges(const scene::ArFrame& frame, const gpu::Texture& picture,
-                                   const MotionLayers* layers, float share) {
+                                   const MotionLayers* layers, float share, float leading) {
   const Gradient& made = gradientOf(picture.size());
   gradient.use(frame)
       .texture("picture", picture)
@@ -148,6 +148,7 @@ void TensorField::State::findEdges(const scene::ArFrame& frame, const gpu::Textu
       .storage("Edges", edges)
       .set("share", share)
       .set("least", kMinEdge)
+      .set("most", glm::vec2(kMostEdge, leading))
       .dispatch({1, 1}, GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
@@ -230,7 +231,8 @@ void TensorField::update(const scene::ArFrame& frame, const gpu::Texture& pictur
   const double past = goesOn ? keptAfter(step, memory) : 0.0;
   s.lastTime = frame.captureTime;
   s.hasPast = true;
-  s.findEdges(frame, picture, layers, static_cast<float>(1.0 - past));
+  s.findEdges(frame, picture, layers, static_cast<float>(1.0 - past),
+              static_cast<float>(options.leading));
   const State::Past kept{goesOn, static_cast<float>(past), static_cast<float>(options.slack)};
   s.sumRegions(frame, motion, layers, kept);
   s.pyramid.build(s.background, options.fillSigma,

@@ -17,12 +17,20 @@ namespace pleinair::marks {
 
 class SegmentMap;
 
+/// Limits of thresholds of edge strength (gradient.frag's P; of a step of luma, four times the
+/// step). However strong other edges are, one of kMostEdge is as much detail as there is, and one
+/// of kLeadingEdge leads strokes.
+inline constexpr float kMostEdge = 0.48F;
+inline constexpr float kLeadingEdge = 0.3F;
+
 struct TensorFieldOptions {
   /// The weight of a virtual surface's own form: the edge strength (gradient.frag's P) of the form
   /// at its clearest.
   double form = 0.5;
   double fillSigma = 1.0;  ///< width of the radial-basis interpolation, in regions
   hal::Duration memory = std::chrono::milliseconds(400);  ///< time constant; 0: no memory
+  /// Edges of this strength lead marks, however strong others are.
+  double leading = kLeadingEdge;
   double slack = 0.15;  ///< a region's detail is held until it differs by more than this part
 };
 

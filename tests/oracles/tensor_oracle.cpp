@@ -66,8 +66,9 @@ const TensorRegion& TensorGrid::at(int x, int y) const {
 }
 
 TensorGrid tensorRegions(const TensorImage& image, int regionPixels, double threshold,
-                         Decision decision) {
+                         Decision decision, double most) {
   constexpr double kSurePixels = 4.0;
+  const double leading = std::min(threshold, most);
   TensorGrid grid{.size = {(image.size.width + regionPixels - 1) / regionPixels,
                            (image.size.height + regionPixels - 1) / regionPixels},
                   .regions = {}};
@@ -83,9 +84,8 @@ TensorGrid tensorRegions(const TensorImage& image, int regionPixels, double thre
     for (int x = 0; x < image.size.width; ++x) {
       const glm::dvec2 tensor = image.tensors[indexOf(image.size, x, y)];
       const double p = glm::length(tensor);
-      const double weight = decision == Decision::kThesis
-                                ? (p >= threshold ? 1.0 : 0.0)
-                                : glm::smoothstep(0.6, 1.4, p / threshold);
+      const double weight = decision == Decision::kThesis ? (p >= leading ? 1.0 : 0.0)
+                                                          : glm::smoothstep(0.6, 1.4, p / leading);
       Sums& sum = sums[indexOf(grid.size, x / regionPixels, y / regionPixels)];
       sum.tensor += weight * tensor;
       sum.strength += weight * p;

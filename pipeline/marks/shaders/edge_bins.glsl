@@ -1,4 +1,4 @@
-// Purpose: the histogram of edge strengths, and the threshold that comes from it.
+// Purpose: the histogram of edge strengths, and the thresholds that come from it.
 // Inputs, outputs: P in [0, 4√2]; bins are uniform in its square root, because weak edges are many.
 // Precision: highp.
 const int kBins = 128;
@@ -6,6 +6,7 @@ const float kMaxEdge = 5.7;
 
 struct EdgeStrengths {
   float threshold;  // of a strong edge
+  float leading;    // of one that leads strokes
   uint bins[kBins];
 };
 

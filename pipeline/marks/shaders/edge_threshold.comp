@@ -1,17 +1,20 @@
 // Purpose: the threshold of a strong edge of the background in this frame, by which those of movers
-//          and models are judged, too: a third of the 99.5th percentile of P,
-//          smoothed in time (the thesis takes a third of the maximum, which one bright object or
-//          hot pixel changes).
+//          and models are judged, too: a third of the 99.5th percentile of P, smoothed in time (the
+//          thesis takes a third of the maximum, which one bright object or hot pixel changes). It
+//          has an upper limit, and that of edges that lead strokes a lower one: weaker edges are
+//          seen, however strong others are.
 //          A frame without any counted pixel leaves it as it is.
 // Inputs:  bins (edge_histogram.comp; cleared here); share: of the way to this frame's value, in
-//          [0, 1]; least: everything below is noise.
-// Outputs: threshold. One invocation.
+//          [0, 1]; least: everything below is noise; most: the limits of `threshold` and of
+//          `leading`.
+// Outputs: threshold, leading. One invocation.
 // Precision: highp.
 #include "pipeline/marks/shaders/edge_bins.glsl"
 layout(local_size_x = 1) in;
 layout(std430, binding = 0) buffer Edges { EdgeStrengths frameEdges; };
 uniform float share;
 uniform float least;
+uniform vec2 most;
 
 void main() {
   uint all = 0u;
@@ -28,5 +31,6 @@ void main() {
     above += here;
   }
   float goal = all > 0u ? percentile / 3.0 : frameEdges.threshold;
-  frameEdges.threshold = max(mix(frameEdges.threshold, goal, share), least);
+  frameEdges.threshold = clamp(mix(frameEdges.threshold, goal, share), least, most.x);
+  frameEdges.leading = min(frameEdges.threshold, most.y);
 }

@@ -1,11 +1,12 @@
 // Purpose: each pixel's edge as a tensor: the gradient by Sobel's operator (thesis eq. 5-8) in the
-//          doubled angle (eq. 9), in which directions have no sign and can be added. The border of
-//          a virtual object is no edge of either side: what is behind a model, or before the
-//          camera's picture, changes nothing about the other.
+//          doubled angle (eq. 9), in which directions have no sign and can be added. Of luma and of
+//          two differences of colours, whose squares are added (Di Zenzo, 1986): things of like
+//          brightness have edges, too. The border of a virtual object is no edge of either side:
+//          what is behind a model, or before the camera's picture, changes nothing about the other.
 // Defines: has_objects.glsl's.
 // Inputs:  picture (RGBA8, sRGB-coded), clamped at the border; ids (ArFrame) if hasObjects.
-// Outputs: RG16F: P cos 2θ, P sin 2θ, θ the gradient's direction; P is its length, of luma in [0,
-//          1].
+// Outputs: RG16F: P cos 2θ, P sin 2θ, θ the direction in which colours differ most; P: of grey
+//          pictures, the length of the gradient of luma in [0, 1].
 // Precision: highp for squares of small differences.
 uniform sampler2D picture;
 uniform highp usampler2D ids;
@@ -21,30 +22,39 @@ uint virtualAt(ivec2 at) {
 }
 
 struct Pixel {
-  float luma;
+  vec3 colour;  // as opponentOf() has it
   uint object;
 };
 
-float lumaAt(ivec2 at, ivec2 last, Pixel own) {
+const float kOpponents = 0.5;  // the weight of a difference of colours beside one of luma
+
+// Luma, red against green, blue against both.
+vec3 opponentOf(vec3 srgb) {
+  vec2 opponents = vec2(srgb.r - srgb.g, srgb.b - 0.5 * (srgb.r + srgb.g));
+  return vec3(lumaOf(srgb), kOpponents * opponents);
+}
+
+vec3 colourAt(ivec2 at, ivec2 last, Pixel own) {
   ivec2 there = clamp(at, ivec2(0), last);
-  if (hasObjects && virtualAt(there) != own.object) return own.luma;
-  return lumaOf(texelFetch(picture, there, 0).rgb);
+  if (hasObjects && virtualAt(there) != own.object) return own.colour;
+  return opponentOf(texelFetch(picture, there, 0).rgb);
 }
 
 void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
   ivec2 last = textureSize(picture, 0) - 1;
-  Pixel own = Pixel(0.0, 0u);
-  if (hasObjects) own = Pixel(lumaOf(texelFetch(picture, p, 0).rgb), virtualAt(p));
-  float nw = lumaAt(p + ivec2(-1, -1), last, own);
-  float n = lumaAt(p + ivec2(0, -1), last, own);
-  float ne = lumaAt(p + ivec2(1, -1), last, own);
-  float w = lumaAt(p + ivec2(-1, 0), last, own);
-  float e = lumaAt(p + ivec2(1, 0), last, own);
-  float sw = lumaAt(p + ivec2(-1, 1), last, own);
-  float s = lumaAt(p + ivec2(0, 1), last, own);
-  float se = lumaAt(p + ivec2(1, 1), last, own);
-  vec2 g = vec2(ne + 2.0 * e + se - nw - 2.0 * w - sw, sw + 2.0 * s + se - nw - 2.0 * n - ne);
-  float squared = dot(g, g);
-  tensor = vec2(g.x * g.x - g.y * g.y, 2.0 * g.x * g.y) * inversesqrt(max(squared, 1e-12));
+  Pixel own = Pixel(vec3(0.0), 0u);
+  if (hasObjects) own = Pixel(opponentOf(texelFetch(picture, p, 0).rgb), virtualAt(p));
+  vec3 nw = colourAt(p + ivec2(-1, -1), last, own);
+  vec3 n = colourAt(p + ivec2(0, -1), last, own);
+  vec3 ne = colourAt(p + ivec2(1, -1), last, own);
+  vec3 w = colourAt(p + ivec2(-1, 0), last, own);
+  vec3 e = colourAt(p + ivec2(1, 0), last, own);
+  vec3 sw = colourAt(p + ivec2(-1, 1), last, own);
+  vec3 s = colourAt(p + ivec2(0, 1), last, own);
+  vec3 se = colourAt(p + ivec2(1, 1), last, own);
+  vec3 gx = ne + 2.0 * e + se - nw - 2.0 * w - sw;
+  vec3 gy = sw + 2.0 * s + se - nw - 2.0 * n - ne;
+  vec2 sum = vec2(dot(gx, gx) - dot(gy, gy), 2.0 * dot(gx, gy));
+  tensor = sum * inversesqrt(max(length(sum), 1e-12));
 }

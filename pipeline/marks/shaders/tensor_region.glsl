@@ -1,11 +1,11 @@
 // Purpose: tensors of regions (thesis §4.2, step 1): the sums over a region's pixels of one kind,
 //          and their blend with the past.
-// Inputs:  threshold: of a strong edge (edge_threshold.comp); tensors of pixels (gradient.frag).
+// Inputs:  threshold, leading (edge_threshold.comp); tensors of pixels (gradient.frag).
 // Outputs: a region: tensor (its length is the agreement of its pixels, in [0, 1]), its confidence
 //          in [0, 1]; detail: the mean P in thresholds.
 // Precision: highp.
 
-// So many px of strong edge give full confidence.
+// So many px of an edge that leads strokes give full confidence.
 const float kSurePixels = 4.0;
 
 // Rotates a tensor by an angle.
@@ -40,10 +40,10 @@ struct Edge {
 
 const Edge kNoEdge = Edge(vec2(0.0), 0.0, 0.0, 0.0, 0.0);
 
-void add(inout Edge edge, vec2 tensor, float part, float threshold) {
+void add(inout Edge edge, vec2 tensor, float part, float leading) {
   float p = length(tensor);
   // A soft threshold, so that noise does not switch it.
-  float weight = part * smoothstep(0.6, 1.4, p / threshold);
+  float weight = part * smoothstep(0.6, 1.4, p / leading);
   edge.sum += weight * tensor;
   edge.strengths += weight * p;
   edge.sure += weight;

@@ -12,14 +12,17 @@ namespace pleinair::measure {
 // Plain versions of what the thesis compares its tensor pyramid with (§4.2, §6.1), on one processor
 // core.
 
-/// Each pixel's tensor, row by row: P (cos 2θ, sin 2θ) (eq. 9), θ the gradient's direction, P of
-/// luma in [0, 1].
+/// Each pixel's tensor, row by row: P (cos 2θ, sin 2θ) (eq. 9), θ the direction in which colours
+/// differ most; P: of grey pictures, the gradient of luma in [0, 1].
 struct TensorImage {
   hal::FrameSize size;
   std::vector<glm::dvec2> tensors;
 };
 
-/// Eq. 5-9 of an RGBA8 or RGB8 picture's luma (BT.601, sRGB-coded); clamped at the border.
+/// Eq. 5-9 of an RGBA8 or RGB8 picture's luma (BT.601, sRGB-coded); and, which the thesis has not,
+/// of its differences of colours, red against green and blue against both, at half of luma's
+/// weight: θ and P² are the direction and the difference of the eigenvalues of their summed squares
+/// (Di Zenzo, 1986). Clamped at the border.
 TensorImage gradientTensors(const hal::ImageView& image);
 
 /// The quantile `part` of P over all pixels, by sorting.

@@ -216,7 +216,8 @@ void Hatching::State::follow(const scene::ArFrame& frame, const HatchingParamete
   } else {
     drawing->movers.reset();
   }
-  drawing->field.update(frame, *frame.colour, drawing->motion, {}, moversOf(p));
+  drawing->field.update(frame, *frame.colour, drawing->motion, {.leading = marks::kMostEdge},
+                        moversOf(p));
   if (p.filterTimeSeconds > 0.0) {
     filtered.update(frame, {.backward = &drawing->motion.backward(),
                             .isCut = drawing->motion.isCut(),

@@ -190,7 +190,7 @@ warmth = 0.05
     {"pastel", "dry chalk on toned paper, which shines through", R"(
 accents = false
 saturation_jitter = 0.12
-stroke_size = 3.3
+stroke_size = 3.5
 length = 7
 layers = 3
 brush = "dry"

@@ -25,11 +25,11 @@ enum class StrokeBump { kOnce, kEach, kOff };
 struct PainterlyParameters {
   int seed = 1;
   int layers = 4;
-  double strokeSizePixels = 3.7;  // the finest layer's width, of a picture of 640x480
+  double strokeSizePixels = 4.1;  // the finest layer's width, of a picture of 640x480
   double layerRatio = 2.0;        // each coarser layer's strokes are wider by this
   double coverage = 3.5;          // strokes of a layer that lie over each other
   double length = 8.0;            // of a stroke, in widths
-  double detail = 0.28;           // from which fine strokes are painted
+  double detail = 0.32;           // from which fine strokes are painted
   double middleDetail = 0.08;
   double modelDetail = 2.5;
   double colourThreshold = 0.11;
@@ -50,7 +50,7 @@ struct PainterlyParameters {
   double valueJitter = 0.11;
   std::filesystem::path brushFile = kNoBrushFile;
   Brush brush = Brush::kFlat;
-  double relief = 1.4;
+  double relief = 1.5;
   double gloss = 0.08;
   Substrate::Kind support = Substrate::Kind::kLinen;
   double canvas = 0.15;
@@ -60,7 +60,7 @@ struct PainterlyParameters {
   double groundGreen = 0.45;
   double groundBlue = 0.35;
   std::string palette = "all";
-  double saturation = 1.12;
+  double saturation = 1.25;
   double warmth = 0.15;
   double coherence = 0.5;
   double memorySeconds = 0.65;  // of a stroke's colour, shape and directions (thesis §5.4)

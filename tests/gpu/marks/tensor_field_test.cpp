@@ -1,6 +1,8 @@
 // The tensor field: each step against the thesis's text on the CPU.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -26,6 +28,31 @@ const glm::dvec2 kNothingAnywhere(-0.94, -0.342);
 
 class TensorFieldTest : public TensorFieldFixture {
  protected:
+  /// The greatest error of gradient.frag, of what is allowed.
+  double worstGradient(const hal::Image& image) {
+    const gpu::Texture picture = textureOf(image.view());
+    const gpu::Texture noIds(gpu::TextureFormat::kR32ui, {1, 1});
+    gpu::Texture made(gpu::TextureFormat::kRg16f, kSize);
+    const gpu::RenderTarget target({&made});
+    gpu::Program pass = library_.fragmentPass("pipeline/marks/shaders/gradient.frag");
+    pass.use()
+        .texture("picture", picture)
+        .texture("ids", noIds)
+        .set("hasObjects", 0)
+        .drawFullscreen(target);
+    const std::vector<float> values = support::readRgba32f(made);
+    const oracles::TensorImage expected = oracles::gradientTensors(image.view());
+    double worst = 0.0;
+    for (std::size_t i = 0; i < expected.tensors.size(); ++i) {
+      const glm::dvec2 is(values[4 * i], values[4 * i + 1]);
+      const glm::dvec2 should = expected.tensors[i];
+      // Half precision, cut off or rounded; and float's sums of eight bytes.
+      const double allowed = 2.0 * kHalf * glm::length(should) + 1e-5;
+      worst = std::max(worst, glm::distance(is, should) / allowed);
+    }
+    return worst;
+  }
+
   /// The GPU's threshold: it shows in `detail`, which is the mean P by it.
   double thresholdOf(const oracles::TensorImage& gradients) const {
     const TensorGrid asOne =
@@ -42,28 +69,70 @@ class TensorFieldTest : public TensorFieldFixture {
 };
 
 TEST_F(TensorFieldTest, GradientsAreTheThesiss) {
-  const hal::Image image = greyPicture(kSize, variedLuma, 6.0);
-  const gpu::Texture picture = textureOf(image.view());
-  const gpu::Texture noIds(gpu::TextureFormat::kR32ui, {1, 1});
-  gpu::Texture made(gpu::TextureFormat::kRg16f, kSize);
-  const gpu::RenderTarget target({&made});
-  gpu::Program pass = library_.fragmentPass("pipeline/marks/shaders/gradient.frag");
-  pass.use()
-      .texture("picture", picture)
-      .texture("ids", noIds)
-      .set("hasObjects", 0)
-      .drawFullscreen(target);
-  const std::vector<float> values = support::readRgba32f(made);
-  const oracles::TensorImage expected = oracles::gradientTensors(image.view());
-  double worst = 0.0;
-  for (std::size_t i = 0; i < expected.tensors.size(); ++i) {
-    const glm::dvec2 is(values[4 * i], values[4 * i + 1]);
-    const glm::dvec2 should = expected.tensors[i];
-    // Half precision, cut off or rounded; and float's sums of eight bytes.
-    const double allowed = 2.0 * kHalf * glm::length(should) + 1e-5;
-    worst = std::max(worst, glm::distance(is, should) / allowed);
+  EXPECT_LT(worstGradient(greyPicture(kSize, variedLuma, 6.0)), 1.0);
+}
+
+TEST_F(TensorFieldTest, GradientsAreOfColoursToo) {
+  hal::Image image = greyPicture(kSize, variedLuma, 6.0, 1);
+  hal::Image green = greyPicture(
+      kSize,
+      [](glm::dvec2 px) {
+        return variedLuma({256.0 - px.x, px.y});
+      },
+      6.0, 2);
+  hal::Image blue = greyPicture(
+      kSize,
+      [](glm::dvec2 px) {
+        return variedLuma({px.x, 128.0 - px.y});
+      },
+      6.0, 3);
+  for (int y = 0; y < kSize.height; ++y) {
+    const auto row = image.row(0, y);
+    for (std::size_t i = 0; i < row.size(); i += 4) {
+      row[i + 1] = green.row(0, y)[i];
+      row[i + 2] = blue.row(0, y)[i];
+    }
   }
-  EXPECT_LT(worst, 1.0);
+  EXPECT_LT(worstGradient(image), 1.0);
+}
+
+/// Two colours of one luma side by side; on the left, two greys, which are nothing but strong.
+TEST_F(TensorFieldTest, AnEdgeBetweenColoursOfOneLumaLeadsStrokes) {
+  const auto seenBetween = [&](const std::array<std::uint8_t, 3>& other) {
+    hal::Image image = greyPicture(kSize, [](glm::dvec2 px) {
+      return px.x < 128.0 ? 0.5 + 0.45 * std::sin(0.4 * px.y) : 150.0 / 255.0;
+    });
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 204; x < kSize.width; ++x) {
+        std::ranges::copy(other, image.row(0, y).data() + static_cast<std::ptrdiff_t>(4) * x);
+      }
+    }
+    update(image, standing(), kNoMemory);
+    return read(field_->regions())[placeOf(25, 8)];  // px 200 to 208
+  };
+  const FieldTexel coloured = seenBetween({180, 150, 71});  // luma 150
+  EXPECT_GT(coloured.known, 0.95);
+  EXPECT_GT(coloured.tensor.x, 0.95) << "the gradient is level";
+  EXPECT_EQ(seenBetween({150, 150, 150}).known, 0.0) << "the control: grey beside grey";
+}
+
+/// Of black and white beside it, a third would be more than a step by a tenth has.
+TEST_F(TensorFieldTest, AWeakEdgeLeadsStrokesHoweverStrongOthersAre) {
+  const hal::Image image = greyPicture(kSize, [](glm::dvec2 px) {
+    if (px.x < 128.0) return std::fmod(px.y, 16.0) < 8.0 ? 0.02 : 0.98;
+    return px.x < 204.0 ? 0.5 : 0.6;
+  });
+  update(image, standing(), kNoMemory);
+  const auto at = placeOf(25, 8);  // px 200 to 208
+  const FieldTexel weak = read(field_->regions())[at];
+  EXPECT_GT(weak.known, 0.9);
+  EXPECT_GT(weak.tensor.x, 0.95);
+  const oracles::TensorImage gradients = oracles::gradientTensors(image.view());
+  const TensorGrid thesiss =
+      oracles::tensorRegions(gradients, kRegionPixels,
+                             oracles::edgePercentile(gradients, 0.995) / 3.0, Decision::kGradual);
+  EXPECT_LT(thesiss.regions[at].known, 0.05) << "the control: the thesis's threshold";
+  EXPECT_GT(weak.detail, 2.0 * thesiss.regions[at].detail);
 }
 
 TEST_F(TensorFieldTest, TheThresholdIsAThirdOfThePercentile) {
@@ -77,6 +146,10 @@ TEST_F(TensorFieldTest, TheThresholdIsAThirdOfThePercentile) {
     const double binWidth = 2.0 * std::sqrt(percentile * 5.7) / 128.0;
     EXPECT_NEAR(3.0 * thresholdOf(gradients), percentile, 2.0 * binWidth) << contrast;
   }
+  const hal::Image strong =
+      greyPicture(kSize, [](glm::dvec2 px) { return std::fmod(px.y, 16.0) < 8.0 ? 0.02 : 0.98; });
+  update(strong, standing(), kNoMemory);
+  EXPECT_NEAR(thresholdOf(oracles::gradientTensors(strong.view())), kMostEdge, 0.005);
 }
 
 TEST_F(TensorFieldTest, OneHotPixelDoesNotMoveTheThreshold) {
@@ -94,8 +167,8 @@ TEST_F(TensorFieldTest, EachStepIsTheOracles) {
   const hal::Image image = greyPicture(kSize, variedLuma, 2.0);
   update(image, standing(), kNoMemory);
   const oracles::TensorImage gradients = oracles::gradientTensors(image.view());
-  const TensorGrid expected =
-      oracles::tensorRegions(gradients, kRegionPixels, thresholdOf(gradients), Decision::kGradual);
+  const TensorGrid expected = oracles::tensorRegions(
+      gradients, kRegionPixels, thresholdOf(gradients), Decision::kGradual, kLeadingEdge);
   const auto pyramid = oracles::tensorPyramid(expected, 1.0, Decision::kGradual);
   ASSERT_EQ(pyramid.size(), field_->levelCount());
   const auto compare = [](const std::vector<FieldTexel>& is, const TensorGrid& should,
@@ -133,7 +206,8 @@ TEST_F(TensorFieldTest, DirectionsAreThoseOfTheThesissText) {
   update(image, standing(), kNoMemory);
   const oracles::TensorImage gradients = oracles::gradientTensors(image.view());
   const auto pyramid = oracles::tensorPyramid(
-      oracles::tensorRegions(gradients, kRegionPixels, thresholdOf(gradients), Decision::kThesis),
+      oracles::tensorRegions(gradients, kRegionPixels, thresholdOf(gradients), Decision::kThesis,
+                             kLeadingEdge),
       1.0, Decision::kThesis);
   const std::vector<FieldTexel> resolved = read(field_->resolved(0));
   std::vector<double> apart;
