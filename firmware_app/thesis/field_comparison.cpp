@@ -99,7 +99,7 @@ FieldComparison compareField(const gpu::ShaderLibrary& library, const hal::Image
   glFinish();
   found.pyramidMs = pyramid.ms() / runs;
 
-  const measure::TensorImage gradients = measure::gradientTensors(image.view());
+  const measure::TensorImage gradients = measure::colourTensors(image.view());
   // The thesis's threshold, from the robust maximum of P; limited as the field's.
   const double threshold = std::min(measure::edgePercentile(gradients, 0.995) / 3.0,
                                     static_cast<double>(marks::kLeadingEdge));

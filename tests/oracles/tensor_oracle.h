@@ -14,6 +14,7 @@
 namespace pleinair::oracles {
 
 using measure::angleBetween;
+using measure::colourTensors;
 using measure::edgePercentile;
 using measure::gradientTensors;
 using measure::RadialBasis;

@@ -14,15 +14,34 @@ std::size_t indexOf(hal::FrameSize size, int x, int y) {
          static_cast<std::size_t>(x);
 }
 
-/// Luma, and half the differences of colours.
+/// Luma, red against green, blue against both.
 glm::dvec3 opponentsAt(const hal::ImageView& image, int x, int y) {
   const hal::FrameSize size = image.format.size;
   const std::size_t channels = image.format.pixelFormat == hal::PixelFormat::kRgba8 ? 4 : 3;
   const auto row = image.row(0, std::clamp(y, 0, size.height - 1));
   const auto* px = &row[channels * static_cast<std::size_t>(std::clamp(x, 0, size.width - 1))];
-  return glm::dvec3(0.299 * px[0] + 0.587 * px[1] + 0.114 * px[2], 0.5 * (px[0] - px[1]),
-                    0.5 * (px[2] - 0.5 * (px[0] + px[1]))) /
+  return glm::dvec3(0.299 * px[0] + 0.587 * px[1] + 0.114 * px[2], px[0] - px[1],
+                    px[2] - 0.5 * (px[0] + px[1])) /
          255.0;
+}
+
+/// `weights`: of what opponentsAt() gives.
+TensorImage weightedTensors(const hal::ImageView& image, const glm::dvec3& weights) {
+  TensorImage made{.size = image.format.size, .tensors = {}};
+  made.tensors.reserve(static_cast<std::size_t>(made.size.pixels()));
+  for (int y = 0; y < made.size.height; ++y) {
+    for (int x = 0; x < made.size.width; ++x) {
+      const auto i = [&](int dx, int dy) { return weights * opponentsAt(image, x + dx, y + dy); };
+      const glm::dvec3 gx = 2.0 * (i(1, 0) - i(-1, 0)) + i(1, 1) - i(-1, 1) + i(1, -1) - i(-1, -1);
+      const glm::dvec3 gy = 2.0 * (i(0, 1) - i(0, -1)) + i(1, 1) - i(1, -1) + i(-1, 1) - i(-1, -1);
+      const double alike = glm::dot(gx, gx) - glm::dot(gy, gy);
+      const double mixed = 2.0 * glm::dot(gx, gy);
+      const double theta = 0.5 * std::atan2(mixed, alike);
+      made.tensors.push_back(std::sqrt(std::hypot(alike, mixed)) *
+                             glm::dvec2(std::cos(2.0 * theta), std::sin(2.0 * theta)));
+    }
+  }
+  return made;
 }
 
 struct Edge {
@@ -57,21 +76,11 @@ glm::dvec2 interpolated(const std::vector<Edge>& edges, double sigma, RadialBasi
 }  // namespace
 
 TensorImage gradientTensors(const hal::ImageView& image) {
-  TensorImage made{.size = image.format.size, .tensors = {}};
-  made.tensors.reserve(static_cast<std::size_t>(made.size.pixels()));
-  for (int y = 0; y < made.size.height; ++y) {
-    for (int x = 0; x < made.size.width; ++x) {
-      const auto i = [&](int dx, int dy) { return opponentsAt(image, x + dx, y + dy); };
-      const glm::dvec3 gx = 2.0 * (i(1, 0) - i(-1, 0)) + i(1, 1) - i(-1, 1) + i(1, -1) - i(-1, -1);
-      const glm::dvec3 gy = 2.0 * (i(0, 1) - i(0, -1)) + i(1, 1) - i(1, -1) + i(-1, 1) - i(-1, -1);
-      const double alike = glm::dot(gx, gx) - glm::dot(gy, gy);
-      const double mixed = 2.0 * glm::dot(gx, gy);
-      const double theta = 0.5 * std::atan2(mixed, alike);
-      made.tensors.push_back(std::sqrt(std::hypot(alike, mixed)) *
-                             glm::dvec2(std::cos(2.0 * theta), std::sin(2.0 * theta)));
-    }
-  }
-  return made;
+  return weightedTensors(image, {1.0, 0.0, 0.0});
+}
+
+TensorImage colourTensors(const hal::ImageView& image) {
+  return weightedTensors(image, {1.0, 0.5, 0.5});
 }
 
 double edgePercentile(const TensorImage& image, double part) {

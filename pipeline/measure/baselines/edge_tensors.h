@@ -19,11 +19,13 @@ struct TensorImage {
   std::vector<glm::dvec2> tensors;
 };
 
-/// Eq. 5-9 of an RGBA8 or RGB8 picture's luma (BT.601, sRGB-coded); and, which the thesis has not,
-/// of its differences of colours, red against green and blue against both, at half of luma's
-/// weight: θ and P² are the direction and the difference of the eigenvalues of their summed squares
-/// (Di Zenzo, 1986). Clamped at the border.
+/// Eq. 5-9 of an RGBA8 or RGB8 picture's luma (BT.601, sRGB-coded); clamped at the border.
 TensorImage gradientTensors(const hal::ImageView& image);
+
+/// The same of its colours, as the painter has them: of luma and, at half its weight, of the
+/// differences of red and green, and of blue and both. θ and P² are the direction and the
+/// difference of the eigenvalues of their summed squares (Di Zenzo, 1986).
+TensorImage colourTensors(const hal::ImageView& image);
 
 /// The quantile `part` of P over all pixels, by sorting.
 double edgePercentile(const TensorImage& image, double part);

@@ -41,7 +41,7 @@ class TensorFieldTest : public TensorFieldFixture {
         .set("hasObjects", 0)
         .drawFullscreen(target);
     const std::vector<float> values = support::readRgba32f(made);
-    const oracles::TensorImage expected = oracles::gradientTensors(image.view());
+    const oracles::TensorImage expected = oracles::colourTensors(image.view());
     double worst = 0.0;
     for (std::size_t i = 0; i < expected.tensors.size(); ++i) {
       const glm::dvec2 is(values[4 * i], values[4 * i + 1]);
