@@ -28,6 +28,9 @@ struct Pixel {
 
 const float kOpponents = 0.5;  // the weight of a difference of colours beside one of luma
 
+const ivec2 kAround[8] = ivec2[8](ivec2(-1, -1), ivec2(0, -1), ivec2(1, -1), ivec2(-1, 0),
+                                  ivec2(1, 0), ivec2(-1, 1), ivec2(0, 1), ivec2(1, 1));
+
 // Luma, red against green, blue against both.
 vec3 opponentOf(vec3 srgb) {
   vec2 opponents = vec2(srgb.r - srgb.g, srgb.b - 0.5 * (srgb.r + srgb.g));
@@ -45,16 +48,15 @@ void main() {
   ivec2 last = textureSize(picture, 0) - 1;
   Pixel own = Pixel(vec3(0.0), 0u);
   if (hasObjects) own = Pixel(opponentOf(texelFetch(picture, p, 0).rgb), virtualAt(p));
-  vec3 nw = colourAt(p + ivec2(-1, -1), last, own);
-  vec3 n = colourAt(p + ivec2(0, -1), last, own);
-  vec3 ne = colourAt(p + ivec2(1, -1), last, own);
-  vec3 w = colourAt(p + ivec2(-1, 0), last, own);
-  vec3 e = colourAt(p + ivec2(1, 0), last, own);
-  vec3 sw = colourAt(p + ivec2(-1, 1), last, own);
-  vec3 s = colourAt(p + ivec2(0, 1), last, own);
-  vec3 se = colourAt(p + ivec2(1, 1), last, own);
-  vec3 gx = ne + 2.0 * e + se - nw - 2.0 * w - sw;
-  vec3 gy = sw + 2.0 * s + se - nw - 2.0 * n - ne;
+  vec3 gx = vec3(0.0);
+  vec3 gy = vec3(0.0);
+  // One colour at a time: eight of them would take twice the registers.
+  for (int i = 0; i < 8; ++i) {
+    ivec2 arm = kAround[i];
+    vec3 colour = colourAt(p + arm, last, own);
+    gx += float(arm.x * (2 - abs(arm.y))) * colour;
+    gy += float(arm.y * (2 - abs(arm.x))) * colour;
+  }
   vec2 sum = vec2(dot(gx, gx) - dot(gy, gy), 2.0 * dot(gx, gy));
   tensor = sum * inversesqrt(max(length(sum), 1e-12));
 }
