@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string>
+#include <vector>
 
+#include "pipeline/gpu/buffer.h"
 #include "pipeline/gpu/per_size.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
+#include "pipeline/marks/fading_past.h"
 #include "pipeline/marks/filtered_frame.h"
 #include "pipeline/marks/layer_textures.h"
 #include "pipeline/scene/render/model_hiding.h"
@@ -39,6 +43,13 @@ constexpr std::array kViews{
 };
 constexpr std::array<glm::vec3, kMaxHatchSets> kSetColours{
     {{0.1F, 0.3F, 0.8F}, {0.85F, 0.25F, 0.1F}, {0.1F, 0.6F, 0.25F}}};
+
+/// A picture whose mean luma is less is lightened up to that; its noise grows by this and 1 at
+/// most.
+constexpr float kLeastMean = 0.33F;
+constexpr float kMostLightening = 2.5F;
+constexpr double kKeySeconds = 1.5;
+constexpr std::size_t kUniformBytes = 16;  // of a block of one number
 
 constexpr auto kMax = CoherenceGate::Side::kMax;
 constexpr auto kMin = CoherenceGate::Side::kMin;
@@ -106,7 +117,9 @@ struct Drawing {
         plan(given),
         motion(library, full),
         movers(library, full),
-        field(library, full) {
+        field(library, full),
+        lightening(kUniformBytes, gpu::BufferUsage::kDynamic) {
+    lightening.write(std::vector<std::byte>(lightening.sizeBytes()));
     for (std::size_t i = 0; i < plan.sets; ++i) {
       HatchPlan lines = plan.lines;
       lines.seed = lines.seed * 8U + static_cast<unsigned>(i);
@@ -118,6 +131,8 @@ struct Drawing {
   marks::MotionField motion;
   marks::MotionLayers movers;
   marks::TensorField field;
+  gpu::Buffer lightening;  // of dark pictures (shaders/tone_key.comp)
+  hal::TimePoint lastTime;
   std::vector<std::unique_ptr<HatchLines>> sets;
 };
 
@@ -144,6 +159,7 @@ struct Hatching::State {
         filtered(library),
         lumaOnce(library.fragmentPass(kShaders + "luma.frag", {}, {TextureFormat::kR8})),
         toneFirst(library.fragmentPass(kShaders + "tone.frag", {}, {TextureFormat::kRgba16f})),
+        toneKey(library.compute(kShaders + "tone_key.comp")),
         toneBlur(library.fragmentPass(kShaders + "tone_blur.frag", {}, {TextureFormat::kRgba16f})),
         contourEdges(
             library.fragmentPass(kShaders + "contour_edges.frag", {}, {TextureFormat::kRg16f})),
@@ -164,6 +180,7 @@ struct Hatching::State {
   marks::FilteredFrame filtered;
   gpu::Program lumaOnce;
   gpu::Program toneFirst;
+  gpu::Program toneKey;
   gpu::Program toneBlur;
   gpu::Program contourEdges;
   gpu::Program contourLines;
@@ -240,9 +257,20 @@ void Hatching::State::findTone(const scene::ArFrame& frame, const HatchingParame
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .drawFullscreen(canvas->halfToneTarget);
+  const hal::Duration step = marks::timeStep(drawing->lastTime, frame.captureTime);
+  drawing->lastTime = frame.captureTime;
+  toneKey.use()
+      .texture("halfTone", canvas->halfTone)
+      .storage("ToneKey", drawing->lightening)
+      .set("least", kLeastMean)
+      .set("most", kMostLightening)
+      .set("share", 1.0F - (drawing->motion.isCut() ? 0.0F : marks::keptAfter(step, kKeySeconds)))
+      .dispatch({1, 1}, GL_UNIFORM_BARRIER_BIT);
   const hal::FrameSize size = canvas->tone.size();
   toneBlur.use()
-      .texture("picture", canvas->halfTone)
+      .texture("halfTone", canvas->halfTone)
+      .uniformBlock("ToneKey", drawing->lightening, 0, kUniformBytes)
+      .set("lighten", static_cast<float>(p.lighten))
       .set("size", glm::vec2(size.width, size.height))
       .drawFullscreen(canvas->toneTarget);
 }

@@ -58,6 +58,8 @@ const config::ParameterTable<HatchingParameters>& hatchingParameters() {
                       "How much darker things are drawn than they are."),
       numberParameter("gamma", &P::gamma, {.min = 0.3, .max = 4},
                       "The curve of tones: above 1 lightens the middle ones."),
+      numberParameter("lighten", &P::lighten, kPart,
+                      "How much dark pictures are lightened, so that their darks are told apart."),
       numberParameter("paper_tone", &P::paperTone, {.min = 0, .max = 0.9},
                       "Lighter tones are left bare."),
       switchParameter("inverted", &P::inverted,
@@ -213,6 +215,7 @@ wander = 0.12
 opacity = 0.72
 darkness = 1.25
 gamma = 0.8
+lighten = 0
 paper_tone = 0.03
 colour = 1
 brush = "pencil"

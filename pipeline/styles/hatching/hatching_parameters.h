@@ -30,6 +30,7 @@ struct HatchingParameters {
   double opacity = 0.95;
   double darkness = 1.1;
   double gamma = 1.35;
+  double lighten = 1.0;     // dark pictures
   double paperTone = 0.06;  // lighter tones are left bare
   bool inverted = false;
   double contours = 1.0;

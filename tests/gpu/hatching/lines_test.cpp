@@ -19,7 +19,7 @@ class HatchLinesTest : public HatchingTest {
   /// The ink of a first frame of one tone.
   std::vector<std::uint8_t> inkOfTone(double luma, const char* seed = "1") {
     Hatching style(library_);
-    set(style, {{"seed", seed}, {"grain", "0"}, {"opacity", "1"}});
+    set(style, {{"seed", seed}, {"grain", "0"}, {"opacity", "1"}, {"lighten", "0"}});
     restart();
     style.paint(next(flat(luma)), {});
     slots_ = 0;

@@ -2,7 +2,12 @@
 // curve (docs/measured.md).
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <numeric>
+#include <random>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 
@@ -138,6 +143,98 @@ TEST_P(HatchTone, IsMonotone) {
   }
   for (std::size_t i = 1; i < kSteps; ++i) EXPECT_GT(means.at(i), means.at(i - 1) - 0.02) << i;
   EXPECT_GT(means.back(), means.front() + 0.08);
+}
+
+class HatchLightening : public HatchingTest {
+ protected:
+  /// The share of ink on the left half and on the right one.
+  std::pair<double, double> inkOfHalves(double left, double right, const char* lighten) {
+    Hatching style(library_);
+    set(style, {{"lighten", lighten}, {"contours", "0"}});
+    restart();
+    const hal::Image image =
+        imageOf(kSize, [&](int x, int) { return x < kSize.width / 2 ? left : right; });
+    style.paint(next(image), {});
+    std::array<double, 2> sums{};
+    const std::vector<std::uint8_t> ink = inkOf(style);
+    for (std::size_t i = 0; i < ink.size(); ++i) {
+      const bool isRight = static_cast<int>(i) % kSize.width >= kSize.width / 2;
+      sums.at(isRight ? 1 : 0) += ink[i];
+    }
+    const double most = 255.0 * static_cast<double>(ink.size()) / 2.0;
+    return {sums[0] / most, sums[1] / most};
+  }
+};
+
+/// Two darks, which without it are one black.
+TEST_F(HatchLightening, TellsTheDarksOfADarkPictureApart) {
+  const auto [dark, lighter] = inkOfHalves(0.03, 0.2, "1");
+  const auto [darkAsItIs, lighterAsItIs] = inkOfHalves(0.03, 0.2, "0");
+  EXPECT_GT(dark - lighter, 0.2);
+  EXPECT_LT(darkAsItIs - lighterAsItIs, 0.1) << "the control";
+}
+
+TEST_F(HatchLightening, LeavesABrightPictureAsItIs) {
+  EXPECT_EQ(inkOfHalves(0.1, 0.7, "1"), inkOfHalves(0.1, 0.7, "0"));
+}
+
+/// A picture of another brightness gets its own lightening within some seconds, a cut's at once.
+TEST_F(HatchLightening, FollowsThePictureSlowlyAndACutAtOnce) {
+  const auto toneOf = [&](Hatching& style, double luma, bool isCut) {
+    const hal::Image image = flat(luma);
+    const scene::ArFrame frame = next(image);
+    motion_.isCut = isCut;
+    return paint(style, frame, "tone")[0];
+  };
+  Hatching style(library_);
+  set(style, {{"filter_time", "0"}});
+  restart();
+  for (int i = 0; i < 3; ++i) toneOf(style, 0.5, false);
+  const int first = toneOf(style, 0.12, false);
+  int later = first;
+  for (int i = 0; i < 150; ++i) later = toneOf(style, 0.12, false);  // 6 s
+  const int cut = toneOf(style, 0.5, true);
+  Hatching fresh(library_);
+  set(fresh, {{"filter_time", "0"}});
+  restart();
+  const int own = toneOf(fresh, 0.12, false);
+  EXPECT_GT(std::abs(first - own), 30) << "a frame later, it is all but as it was";
+  EXPECT_NEAR(later, own, 4);
+  fresh.reset();
+  restart();
+  EXPECT_EQ(cut, toneOf(fresh, 0.5, false));
+}
+
+/// Something bright that passes before a dark ground changes no tone beside it.
+TEST_F(HatchLightening, IsThatOfTheBackground) {
+  const auto toneChanges = [&](const char* movers) {
+    Hatching style(library_);
+    set(style, {{"movers", movers}});
+    restart();
+    std::mt19937 random(3);
+    std::normal_distribution<double> noise(0.0, 2.0 / 255.0);
+    const auto toneBeside = [&](bool hasDisc) {
+      const hal::Image image = imageOf(kSize, [&](int x, int y) {
+        const bool isDisc = hasDisc && std::hypot(x - 96.0, y - 72.0) < 40.0;
+        const double luma =
+            isDisc ? 0.8 + 0.1 * std::sin(0.6 * y) : 0.12 + 0.06 * std::sin(0.6 * x);
+        return luma + noise(random);
+      });
+      const std::vector<std::uint8_t> tone = paint(style, next(image), "tone");
+      double sum = 0.0;
+      for (std::size_t x = 0; x < 40; ++x) sum += tone[4 * (20 * 192 + x)] / 40.0;
+      return sum;
+    };
+    double before = 0.0;
+    for (int i = 0; i < 8; ++i) before = toneBeside(false);
+    double after = before;
+    for (int i = 0; i < 15; ++i) after = toneBeside(true);
+    return std::abs(after - before);
+  };
+  const double told = toneChanges("true");
+  const double untold = toneChanges("false");
+  EXPECT_LT(told, 2.0);
+  EXPECT_GT(untold, 5.0) << "the control: everything counts";
 }
 
 }  // namespace

@@ -1,15 +1,26 @@
-// Purpose: a smoother image of half the size: the mean of 4x4 pixels under a tent.
-// Inputs:  picture (LINEAR); size: of the output.
+// Purpose: the tone that lines render: a smoother image of half the size, the mean of 4x4 pixels
+//          under a tent, lightened where the picture is dark.
+// Inputs:  halfTone (tone.frag, LINEAR); size: of the output; ToneKey (tone_key.comp); lighten: how
+//          much of it, in [0, 1].
 // Outputs: the same format.
 // Precision: highp for places.
-uniform sampler2D picture;
+layout(std140, binding = 0) uniform ToneKey { highp float lighter; };
+uniform sampler2D halfTone;
 uniform vec2 size;
-layout(location = 0) out vec4 blurred;
+uniform float lighten;
+layout(location = 0) out vec4 tone;
+
+vec2 lightened(vec2 seen) {
+  float luma = seen.x / max(seen.y, 1e-5);
+  float much = lighten * lighter;
+  return vec2(seen.x * (1.0 + much) / (1.0 + much * luma), seen.y);
+}
 
 void main() {
   vec2 place = gl_FragCoord.xy / size;
-  vec2 step = 0.5 / size;
-  blurred = 0.25 * (texture(picture, place - step) + texture(picture, place + step) +
-                    texture(picture, place + vec2(step.x, -step.y)) +
-                    texture(picture, place + vec2(-step.x, step.y)));
+  vec2 arm = 0.5 / size;
+  vec4 mean = 0.25 * (texture(halfTone, place - arm) + texture(halfTone, place + arm) +
+                      texture(halfTone, place + vec2(arm.x, -arm.y)) +
+                      texture(halfTone, place + vec2(-arm.x, arm.y)));
+  tone = vec4(lightened(mean.xy), lightened(mean.zw));
 }
