@@ -66,7 +66,7 @@ void InputDevices::readDevice(Open& device, const Accept& accept) {
     KeyEvent event;
     const Answer has = device.device->read(event);
     device.isGone = has.hasError();
-    if (!has.isYes()) return;
+    if (device.isGone || !has.isYes()) return;
     if (event.code >= device.held.size()) continue;
     device.held[event.code] = event.value != 0;
     accept(device, event);

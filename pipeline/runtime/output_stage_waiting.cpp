@@ -42,8 +42,9 @@ void OutputStage::presentWaiting() {
     const std::scoped_lock lock(mutex_);
     directOnScreen_.reset();
   }
-  if (submitted.hasError() || (fits && submitted.isYes())) fade_.end();
-  if (fits && submitted.isYes() && fades) fade_.begin(picture);
+  const bool isTaken = fits && !submitted.hasError() && submitted.isYes();
+  if (submitted.hasError() || isTaken) fade_.end();
+  if (isTaken && fades) fade_.begin(picture);
   const std::scoped_lock lock(mutex_);
   isFading_ = fade_.isOn();
   if (submitted.hasError()) {

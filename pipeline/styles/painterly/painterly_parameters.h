@@ -25,7 +25,7 @@ enum class StrokeBump { kOnce, kEach, kOff };
 struct PainterlyParameters {
   int seed = 1;
   int layers = 4;
-  double strokeSizePixels = 4.1;  // the finest layer's width, of a picture of 640x480
+  double strokeSizePixels = 4.0;  // the finest layer's width, of a picture of 640x480
   double layerRatio = 2.0;        // each coarser layer's strokes are wider by this
   double coverage = 3.5;          // strokes of a layer that lie over each other
   double length = 8.0;            // of a stroke, in widths
@@ -60,7 +60,7 @@ struct PainterlyParameters {
   double groundGreen = 0.45;
   double groundBlue = 0.35;
   std::string palette = "all";
-  double saturation = 1.25;
+  double saturation = 1.27;
   double warmth = 0.15;
   double coherence = 0.5;
   double memorySeconds = 0.65;  // of a stroke's colour, shape and directions (thesis §5.4)
