@@ -101,8 +101,8 @@ FieldComparison compareField(const gpu::ShaderLibrary& library, const hal::Image
 
   const measure::TensorImage gradients = measure::colourTensors(image.view());
   // The thesis's threshold, from the robust maximum of P; limited as the field's.
-  const double threshold = std::min(measure::edgePercentile(gradients, 0.995) / 3.0,
-                                    static_cast<double>(marks::kLeadingEdge));
+  const double threshold =
+      std::min(measure::edgePercentile(gradients, 0.995) / 3.0, marks::kMaxLeading);
   found.hasEdges = regionsWithEdges(gradients, threshold, found.edgePixels);
   found.regions = field.resolved(0).size();
   const std::vector<glm::dvec2> ours = readTensors(field.resolved(0));

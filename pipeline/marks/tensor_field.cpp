@@ -124,14 +124,14 @@ struct TensorField::State {
     float slack = 0.0F;
   };
   void findEdges(const scene::ArFrame& frame, const gpu::Texture& picture,
-                 const MotionLayers* layers, float share, float leading);
+                 const MotionLayers* layers, float share, float maxLeading);
   void sumRegions(const scene::ArFrame& frame, const MotionField& motion,
                   const MotionLayers* layers, const Past& past);
   void sumModels(const scene::ArFrame& frame, double form, const Past& past);
 };
 
 void TensorField::State::findEdges(const scene::ArFrame& frame, const gpu::Texture& picture,
-                                   const MotionLayers* layers, float share, float leading) {
+                                   const MotionLayers* layers, float share, float maxLeading) {
   const Gradient& made = gradientOf(picture.size());
   gradient.use(frame)
       .texture("picture", picture)
@@ -148,7 +148,7 @@ void TensorField::State::findEdges(const scene::ArFrame& frame, const gpu::Textu
       .storage("Edges", edges)
       .set("share", share)
       .set("least", kMinEdge)
-      .set("most", glm::vec2(kMostEdge, leading))
+      .set("most", glm::vec2(static_cast<float>(kMaxDetailUnit), maxLeading))
       .dispatch({1, 1}, GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
@@ -225,6 +225,7 @@ void TensorField::update(const scene::ArFrame& frame, const gpu::Texture& pictur
   State& s = *state_;
   assert(frame.full() == s.full && picture.size() == frame.size());
   assert(options.slack >= 0.0 && options.slack < 1.0);
+  assert(options.maxLeading >= kMinEdge && options.maxLeading <= kMaxDetailUnit);
   const hal::Duration step = timeStep(s.lastTime, frame.captureTime);
   const double memory = std::chrono::duration<double>(options.memory).count();
   const bool goesOn = s.hasPast && !motion.isCut();
@@ -232,7 +233,7 @@ void TensorField::update(const scene::ArFrame& frame, const gpu::Texture& pictur
   s.lastTime = frame.captureTime;
   s.hasPast = true;
   s.findEdges(frame, picture, layers, static_cast<float>(1.0 - past),
-              static_cast<float>(options.leading));
+              static_cast<float>(options.maxLeading));
   const State::Past kept{goesOn, static_cast<float>(past), static_cast<float>(options.slack)};
   s.sumRegions(frame, motion, layers, kept);
   s.pyramid.build(s.background, options.fillSigma,

@@ -17,11 +17,11 @@ namespace pleinair::marks {
 
 class SegmentMap;
 
-/// Limits of thresholds of edge strength (gradient.frag's P; of a step of luma, four times the
-/// step). However strong other edges are, one of kMostEdge is as much detail as there is, and one
-/// of kLeadingEdge leads strokes.
-inline constexpr float kMostEdge = 0.48F;
-inline constexpr float kLeadingEdge = 0.3F;
+/// Upper limits of two thresholds of edge strength (gradient.frag's P; a step of luma is a quarter
+/// of it): of the unit of detail, and of an edge that leads strokes. Weaker edges are seen, however
+/// strong others are.
+inline constexpr double kMaxDetailUnit = 0.48;
+inline constexpr double kMaxLeading = 0.3;
 
 struct TensorFieldOptions {
   /// The weight of a virtual surface's own form: the edge strength (gradient.frag's P) of the form
@@ -29,8 +29,7 @@ struct TensorFieldOptions {
   double form = 0.5;
   double fillSigma = 1.0;  ///< width of the radial-basis interpolation, in regions
   hal::Duration memory = std::chrono::milliseconds(400);  ///< time constant; 0: no memory
-  /// Edges of this strength lead marks, however strong others are.
-  double leading = kLeadingEdge;
+  double maxLeading = kMaxLeading;                        ///< in [0.05, kMaxDetailUnit]
   double slack = 0.15;  ///< a region's detail is held until it differs by more than this part
 };
 
@@ -63,7 +62,8 @@ class TensorField {
 
   std::size_t levelCount() const;
   /// RGBA16F, LINEAR: a level's tensors after the look-up in coarser levels: tensor; confidence of
-  /// this level itself, in [0, 1]; detail: the mean gradient in units of a strong edge's. Level 0
+  /// this level itself, in [0, 1]; detail: the mean gradient in units of a strong edge's, at most
+  /// kMaxDetailUnit. Level 0
   /// has the finest regions; each further level doubles their width.
   const gpu::Texture& resolved(std::size_t level) const;
   /// The same before the look-up, as interpolated on each level.

@@ -66,9 +66,9 @@ const TensorRegion& TensorGrid::at(int x, int y) const {
 }
 
 TensorGrid tensorRegions(const TensorImage& image, int regionPixels, double threshold,
-                         Decision decision, double most) {
+                         Decision decision, double maxLeading) {
   constexpr double kSurePixels = 4.0;
-  const double leading = std::min(threshold, most);
+  const double leading = std::min(threshold, maxLeading);
   TensorGrid grid{.size = {(image.size.width + regionPixels - 1) / regionPixels,
                            (image.size.height + regionPixels - 1) / regionPixels},
                   .regions = {}};

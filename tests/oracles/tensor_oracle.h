@@ -36,10 +36,11 @@ struct TensorGrid {
   const TensorRegion& at(int x, int y) const;
 };
 
-/// Step 1: the tensors of each region's edge pixels, summed and divided by ΣP. `threshold`: of an
-/// edge; `most`: what it is at most where it decides whether a pixel is of one.
+/// Step 1: the tensors of each region's edge pixels, summed and divided by ΣP. `threshold`: the
+/// unit of detail; `maxLeading`: upper limit of the one from which a pixel counts as an edge.
 TensorGrid tensorRegions(const TensorImage& image, int regionPixels, double threshold,
-                         Decision decision, double most = std::numeric_limits<double>::infinity());
+                         Decision decision,
+                         double maxLeading = std::numeric_limits<double>::infinity());
 /// Step 2: a region without a tensor takes the radial-basis value of the 5×5 regions around it,
 /// with the weights e^(−d/σ) of eq. 12, σ in regions.
 TensorGrid filledTensors(const TensorGrid& grid, double sigma, Decision decision);

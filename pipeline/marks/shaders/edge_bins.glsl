@@ -5,8 +5,8 @@ const int kBins = 128;
 const float kMaxEdge = 5.7;
 
 struct EdgeStrengths {
-  float threshold;  // of a strong edge
-  float leading;    // of one that leads strokes
+  float threshold;         // of a strong edge: the unit of detail
+  float leadingThreshold;  // of one that leads strokes
   uint bins[kBins];
 };
 

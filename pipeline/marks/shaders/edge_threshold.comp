@@ -6,8 +6,8 @@
 //          A frame without any counted pixel leaves it as it is.
 // Inputs:  bins (edge_histogram.comp; cleared here); share: of the way to this frame's value, in
 //          [0, 1]; least: everything below is noise; most: the limits of `threshold` and of
-//          `leading`.
-// Outputs: threshold, leading. One invocation.
+//          `leadingThreshold`.
+// Outputs: threshold, leadingThreshold. One invocation.
 // Precision: highp.
 #include "pipeline/marks/shaders/edge_bins.glsl"
 layout(local_size_x = 1) in;
@@ -30,7 +30,7 @@ void main() {
     }
     above += here;
   }
-  float goal = all > 0u ? percentile / 3.0 : frameEdges.threshold;
-  frameEdges.threshold = clamp(mix(frameEdges.threshold, goal, share), least, most.x);
-  frameEdges.leading = min(frameEdges.threshold, most.y);
+  float goal = all > 0u ? min(percentile / 3.0, most.x) : frameEdges.threshold;
+  frameEdges.threshold = max(mix(frameEdges.threshold, goal, share), least);
+  frameEdges.leadingThreshold = min(frameEdges.threshold, most.y);
 }

@@ -4,7 +4,7 @@
 //          or that its author declares, and towards a silhouette that of the silhouette. Carried
 //          along the motion of its surface; another patch has no part in its past, unless it is the
 //          other side of a joint.
-// Inputs:  tensors (gradient.frag), threshold, leading (edge_threshold.comp), pixelsOfFull; regionPixels: a
+// Inputs:  tensors (gradient.frag), edge_threshold.comp's, pixelsOfFull; regionPixels: a
 //          region's side in px of the full image; forms, normals, surfaceMotion (ArFrame);
 //          formWeight: of the surface's form; before, labelsBefore: the previous frame's, if hasPast;
 //          past: the share of them that remains; slack: by which part detail may differ from the
@@ -120,7 +120,7 @@ void main() {
       limb = form & kOnLimb;
       atJoint += (form & kAtJoint) != 0u ? 1.0 : 0.0;
       pixels += 1.0;
-      add(seen, texelFetch(tensors, p, 0).xy, 1.0, frameEdges.leading);
+      add(seen, texelFetch(tensors, p, 0).xy, 1.0, frameEdges.leadingThreshold);
       vec2 lead = formWeight * formAt(p);
       seen.sum += lead;
       seen.strengths += length(lead);

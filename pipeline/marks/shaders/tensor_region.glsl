@@ -1,8 +1,8 @@
 // Purpose: tensors of regions (thesis §4.2, step 1): the sums over a region's pixels of one kind,
 //          and their blend with the past.
-// Inputs:  threshold, leading (edge_threshold.comp); tensors of pixels (gradient.frag).
+// Inputs:  threshold, leadingThreshold (edge_threshold.comp); tensors of pixels (gradient.frag).
 // Outputs: a region: tensor (its length is the agreement of its pixels, in [0, 1]), its confidence
-//          in [0, 1]; detail: the mean P in thresholds.
+//          in [0, 1]; detail: the mean P in units of `threshold`.
 // Precision: highp.
 
 // So many px of an edge that leads strokes give full confidence.
@@ -40,10 +40,10 @@ struct Edge {
 
 const Edge kNoEdge = Edge(vec2(0.0), 0.0, 0.0, 0.0, 0.0);
 
-void add(inout Edge edge, vec2 tensor, float part, float leading) {
+void add(inout Edge edge, vec2 tensor, float part, float leadingThreshold) {
   float p = length(tensor);
   // A soft threshold, so that noise does not switch it.
-  float weight = part * smoothstep(0.6, 1.4, p / leading);
+  float weight = part * smoothstep(0.6, 1.4, p / leadingThreshold);
   edge.sum += weight * tensor;
   edge.strengths += weight * p;
   edge.sure += weight;

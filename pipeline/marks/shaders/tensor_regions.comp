@@ -5,7 +5,7 @@
 //          poses are known they go with the surface (thesis §6.2), unless the measured motion is
 //          surer or contradicts it; its perspective turns them as it does the surface's lines.
 // Defines: has_objects.glsl's.
-// Inputs:  tensors (gradient.frag), threshold, leading (edge_threshold.comp), pixelsOfFull; regionPixels: a
+// Inputs:  tensors (gradient.frag), edge_threshold.comp's, pixelsOfFull; regionPixels: a
 //          region's side in px of the full image; before, moversBefore: the previous frame's
 //          regions, motion (MotionField's), if hasPast; past: the share of them that remains;
 //          slack: by which part detail may differ from the held value; image_motion.glsl's, flow
@@ -137,7 +137,7 @@ void main() {
   for (int i = 0; i < 4; ++i) {
     near = max(near, moverAt(at + kReach * (2.0 * vec2(i & 1, i >> 1) - 1.0)).r);
   }
-  float leading = frameEdges.leading;
+  float leads = frameEdges.leadingThreshold;
   Edge ground = kNoEdge;
   Edge mover = kNoEdge;
   Surface surface = Surface(vec2(0.0), vec2(0.0), vec3(0.0), vec4(0.0), 0.0, 0.0);
@@ -149,7 +149,7 @@ void main() {
   bool isPlain = near == 0.0 && !mayShowObjects && !mayShowSurface(low, high);
   for (int y = isPlain ? low.y : high.y; y < high.y; ++y) {
     for (int x = low.x; x < high.x; ++x) {
-      add(ground, texelFetch(tensors, ivec2(x, y), 0).xy, 1.0, leading);
+      add(ground, texelFetch(tensors, ivec2(x, y), 0).xy, 1.0, leads);
     }
   }
   for (int y = isPlain ? high.y : low.y; y < high.y; ++y) {
@@ -164,8 +164,8 @@ void main() {
       }
       vec2 tensor = texelFetch(tensors, ivec2(x, y), 0).xy;
       vec2 parts = near > 0.0 ? edgePartsAt((vec2(x, y) + 0.5) / pixelsOfFull) : vec2(1.0, 0.0);
-      add(ground, tensor, parts.x, leading);
-      if (parts.y > 0.0) add(mover, tensor, parts.y, leading);
+      add(ground, tensor, parts.x, leads);
+      if (parts.y > 0.0) add(mover, tensor, parts.y, leads);
     }
   }
   vec2 extent = vec2(max(high - low, 0));
@@ -174,7 +174,8 @@ void main() {
   // The rest of a region that a model hides in part says less.
   float stays = mix(past, 1.0, smoothstep(0.0, 1.0 - kLeastSeen, hidden));
   vec4 now = regionOf(ground, frameEdges.threshold, pixelsOfFull.x);
-  vec4 nowOfMover = mover.pixels > 0.0 ? regionOf(mover, frameEdges.threshold, pixelsOfFull.x) : vec4(0.0);
+  vec4 nowOfMover = vec4(0.0);
+  if (mover.pixels > 0.0) nowOfMover = regionOf(mover, frameEdges.threshold, pixelsOfFull.x);
   bool isHeld = seen < kLeastSeen;
   if (hasPast) {
     vec4 moved = textureLod(motion, at / fullSize, 0.0);

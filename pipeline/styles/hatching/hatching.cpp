@@ -44,12 +44,12 @@ constexpr std::array kViews{
 constexpr std::array<glm::vec3, kMaxHatchSets> kSetColours{
     {{0.1F, 0.3F, 0.8F}, {0.85F, 0.25F, 0.1F}, {0.1F, 0.6F, 0.25F}}};
 
-/// A picture whose mean luma is less is lightened up to that; its noise grows by this and 1 at
-/// most.
+/// A picture whose mean luma is less is lightened, so that a place of that mean has it.
 constexpr float kLeastMean = 0.33F;
+/// The slope of the curve at black, and so what becomes of noise there, is 1 more.
 constexpr float kMostLightening = 2.5F;
-constexpr double kKeySeconds = 1.5;
-constexpr std::size_t kUniformBytes = 16;  // of a block of one number
+constexpr double kLighteningSeconds = 1.5;  // time constant
+constexpr std::size_t kUniformBytes = 16;   // of a block of one number
 
 constexpr auto kMax = CoherenceGate::Side::kMax;
 constexpr auto kMin = CoherenceGate::Side::kMin;
@@ -131,8 +131,8 @@ struct Drawing {
   marks::MotionField motion;
   marks::MotionLayers movers;
   marks::TensorField field;
-  gpu::Buffer lightening;  // of dark pictures (shaders/tone_key.comp)
-  hal::TimePoint lastTime;
+  gpu::Buffer lightening;   // of dark pictures (shaders/tone_lightening.comp)
+  hal::TimePoint lastTime;  // of `lightening`
   std::vector<std::unique_ptr<HatchLines>> sets;
 };
 
@@ -159,7 +159,7 @@ struct Hatching::State {
         filtered(library),
         lumaOnce(library.fragmentPass(kShaders + "luma.frag", {}, {TextureFormat::kR8})),
         toneFirst(library.fragmentPass(kShaders + "tone.frag", {}, {TextureFormat::kRgba16f})),
-        toneKey(library.compute(kShaders + "tone_key.comp")),
+        toneLightening(library.compute(kShaders + "tone_lightening.comp")),
         toneBlur(library.fragmentPass(kShaders + "tone_blur.frag", {}, {TextureFormat::kRgba16f})),
         contourEdges(
             library.fragmentPass(kShaders + "contour_edges.frag", {}, {TextureFormat::kRg16f})),
@@ -180,7 +180,7 @@ struct Hatching::State {
   marks::FilteredFrame filtered;
   gpu::Program lumaOnce;
   gpu::Program toneFirst;
-  gpu::Program toneKey;
+  gpu::Program toneLightening;
   gpu::Program toneBlur;
   gpu::Program contourEdges;
   gpu::Program contourLines;
@@ -206,6 +206,7 @@ struct Hatching::State {
   void take(const scene::ArFrame& frame, const HatchingParameters& p);
   void follow(const scene::ArFrame& frame, const HatchingParameters& p);
   void findTone(const scene::ArFrame& frame, const HatchingParameters& p);
+  void findLightening(const scene::ArFrame& frame);
   void findContours(const scene::ArFrame& frame, const HatchingParameters& p);
   void drawPart(StripPart part, bool isClipped, const scene::ArFrame& frame,
                 const HatchingParameters& p, const StrokeStrips& laid);
@@ -233,8 +234,9 @@ void Hatching::State::follow(const scene::ArFrame& frame, const HatchingParamete
   } else {
     drawing->movers.reset();
   }
-  drawing->field.update(frame, *frame.colour, drawing->motion, {.leading = marks::kMostEdge},
-                        moversOf(p));
+  // Lines are long: led by weak edges, they would cross.
+  drawing->field.update(frame, *frame.colour, drawing->motion,
+                        {.maxLeading = marks::kMaxDetailUnit}, moversOf(p));
   if (p.filterTimeSeconds > 0.0) {
     filtered.update(frame, {.backward = &drawing->motion.backward(),
                             .isCut = drawing->motion.isCut(),
@@ -257,22 +259,27 @@ void Hatching::State::findTone(const scene::ArFrame& frame, const HatchingParame
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .drawFullscreen(canvas->halfToneTarget);
-  const hal::Duration step = marks::timeStep(drawing->lastTime, frame.captureTime);
-  drawing->lastTime = frame.captureTime;
-  toneKey.use()
-      .texture("halfTone", canvas->halfTone)
-      .storage("ToneKey", drawing->lightening)
-      .set("least", kLeastMean)
-      .set("most", kMostLightening)
-      .set("share", 1.0F - (drawing->motion.isCut() ? 0.0F : marks::keptAfter(step, kKeySeconds)))
-      .dispatch({1, 1}, GL_UNIFORM_BARRIER_BIT);
+  if (p.lighten > 0.0) findLightening(frame);
   const hal::FrameSize size = canvas->tone.size();
   toneBlur.use()
       .texture("halfTone", canvas->halfTone)
-      .uniformBlock("ToneKey", drawing->lightening, 0, kUniformBytes)
+      .uniformBlock("ToneLightening", drawing->lightening, 0, drawing->lightening.sizeBytes())
       .set("lighten", static_cast<float>(p.lighten))
       .set("size", glm::vec2(size.width, size.height))
       .drawFullscreen(canvas->toneTarget);
+}
+
+void Hatching::State::findLightening(const scene::ArFrame& frame) {
+  const hal::Duration step = marks::timeStep(drawing->lastTime, frame.captureTime);
+  drawing->lastTime = frame.captureTime;
+  const float kept = drawing->motion.isCut() ? 0.0F : marks::keptAfter(step, kLighteningSeconds);
+  toneLightening.use()
+      .texture("halfTone", canvas->halfTone)
+      .storage("ToneLightening", drawing->lightening)
+      .set("least", kLeastMean)
+      .set("most", kMostLightening)
+      .set("share", 1.0F - kept)
+      .dispatch({1, 1}, GL_UNIFORM_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void Hatching::State::findContours(const scene::ArFrame& frame, const HatchingParameters& p) {

@@ -30,7 +30,7 @@ struct HatchingParameters {
   double opacity = 0.95;
   double darkness = 1.1;
   double gamma = 1.35;
-  double lighten = 1.0;     // dark pictures
+  double lighten = 1.0;     // how much dark pictures are lightened
   double paperTone = 0.06;  // lighter tones are left bare
   bool inverted = false;
   double contours = 1.0;

@@ -165,11 +165,12 @@ relief = 2.6
 gloss = 0.12
 hue_jitter = 0.05
 value_jitter = 0.08
-saturation = 1.25
+saturation = 1.35
 canvas = 0.05
 )"},
     {"gouache", "flat, matt and opaque", R"(
 accents = false
+saturation = 1.25
 layers = 3
 stroke_size = 3.4
 detail = 0.2
@@ -241,6 +242,7 @@ warmth = 0
 hue_jitter = 0.03
 saturation_jitter = 0.12
 value_jitter = 0.05
+saturation = 1.12
 layers = 3
 stroke_size = 3
 layer_ratio = 1.7

@@ -19,7 +19,7 @@ namespace {
 using measure::Measures;
 using measure::Subject;
 
-constexpr hal::FrameSize kSize{320, 240};
+constexpr hal::FrameSize kSize{320, 240};  // SCR of less says little
 constexpr MeasuredLength kShort{.frames = 13, .settle = 15, .stillFrames = 5, .stillSettle = 12};
 
 /// Round and square things of all sizes, each with a texture of its own: something to follow, and

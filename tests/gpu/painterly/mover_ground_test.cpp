@@ -156,7 +156,7 @@ TEST_F(MoverGround, BecomesTheBackgroundsWhileItRests) {
 
 TEST_F(MoverGround, ThickPaintOnItIsLitLikeThinPaint) {
   std::vector<std::vector<std::uint8_t>> paintings;
-  for (const char* relief : {"1.4", "2.6"}) {
+  for (const char* relief : {"1.5", "2.6"}) {
     Painterly style(library_);
     begin(style, "true", relief, "1");
     seeItMove(style);

@@ -1,10 +1,10 @@
 // Purpose: the tone that lines render: a smoother image of half the size, the mean of 4x4 pixels
 //          under a tent, lightened where the picture is dark.
-// Inputs:  halfTone (tone.frag, LINEAR); size: of the output; ToneKey (tone_key.comp); lighten: how
-//          much of it, in [0, 1].
+// Inputs:  halfTone (tone.frag, LINEAR); size: of the output; ToneLightening
+//          (tone_lightening.comp); lighten: how much of it, in [0, 1].
 // Outputs: the same format.
 // Precision: highp for places.
-layout(std140, binding = 0) uniform ToneKey { highp float lighter; };
+layout(std140, binding = 0) uniform ToneLightening { float lightening; };
 uniform sampler2D halfTone;
 uniform vec2 size;
 uniform float lighten;
@@ -12,8 +12,8 @@ layout(location = 0) out vec4 tone;
 
 vec2 lightened(vec2 seen) {
   float luma = seen.x / max(seen.y, 1e-5);
-  float much = lighten * lighter;
-  return vec2(seen.x * (1.0 + much) / (1.0 + much * luma), seen.y);
+  float k = lighten * lightening;
+  return vec2(seen.x * (1.0 + k) / (1.0 + k * luma), seen.y);
 }
 
 void main() {
