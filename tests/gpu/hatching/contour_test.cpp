@@ -1,6 +1,12 @@
 // Contour lines against a CPU version of the difference of Gaussians, and where they are drawn.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
 #include <gmock/gmock.h>
 
+#include "pipeline/gpu/render_target.h"
 #include "tests/gpu/hatching/hatching_fixture.h"
 
 namespace pleinair::styles {
@@ -84,6 +90,57 @@ TEST_F(ContourTest, NoiseGivesNone) {
       kSize, [&](int, int) { return 0.5 + (static_cast<double>(random() % 9U) - 4.0) / 255.0; });
   const auto bytes = paint(style, next(noise), "contours");
   for (std::size_t i = 0; i < bytes.size(); i += 4) ASSERT_GT(bytes[i], 200U);
+}
+
+/// A label ends in the middle of the picture, and what is behind was never seen.
+TEST_F(ContourTest, AMoversLabelThatEndsWithinAThingHasNoOutline) {
+  const auto inkAlongTheBorder = [&](const std::array<std::uint8_t, 3>& right) {
+    hal::Image image = flat(0.5);
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = kSize.width / 2; x < kSize.width; ++x) {
+        std::ranges::copy(right, image.row(0, y).data() + static_cast<std::ptrdiff_t>(4) * x);
+      }
+    }
+    const gpu::Texture picture = support::textureOf(image.view());
+    const hal::FrameSize cells{kSize.width / 2, kSize.height / 2};
+    hal::Image labels({.pixelFormat = hal::PixelFormat::kRgba8, .size = cells});
+    for (int y = 0; y < cells.height; ++y) {
+      std::fill_n(labels.row(0, y).data(), 2 * cells.width, std::uint8_t{255});
+    }
+    const gpu::Texture movers = support::textureOf(labels.view());
+    gpu::Texture none(gpu::TextureFormat::kRgba8, {1, 1}, gpu::TextureFilter::kLinear);
+    none.upload(std::array<std::uint8_t, 4>{}, 4);
+    const gpu::Texture noForms(gpu::TextureFormat::kR32ui, {1, 1});
+    gpu::Texture made(gpu::TextureFormat::kRgba8, kSize);
+    const gpu::RenderTarget target({&made});
+    gpu::Program pass = library_.fragmentPass("pipeline/styles/hatching/shaders/contours.frag", {},
+                                              {gpu::TextureFormat::kRgba8});
+    pass.use()
+        .texture("edges", none)
+        .texture("picture", picture)
+        .texture("background", none)
+        .texture("movers", movers)
+        .texture("field", none)
+        .texture("modelField", none)
+        .texture("moverField", none)
+        .texture("forms", noForms)
+        .set("hasForms", 0)
+        .set("fieldScale", glm::vec2(1.0F))
+        .set("size", glm::vec2(kSize.width, kSize.height))
+        .set("pixelsOfFull", glm::vec2(1.0F))
+        .set("step_", 1.0F)
+        .set("threshold", 0.018F)
+        .set("sign_", -1.0F)
+        .drawFullscreen(target);
+    const std::vector<std::uint8_t> ink = bytesOf(made);
+    int most = 0;
+    for (int x = kSize.width / 2 - 6; x < kSize.width / 2 + 6; ++x) {
+      most = std::max<int>(most, ink[4U * static_cast<std::size_t>(72 * kSize.width + x)]);
+    }
+    return most;
+  };
+  EXPECT_EQ(inkAlongTheBorder({128, 128, 128}), 0);
+  EXPECT_GT(inkAlongTheBorder({215, 102, 128}), 80) << "the control: of the same luma";
 }
 
 TEST_F(ContourTest, ModelsHaveSilhouettesPartBordersAndCreases) {

@@ -1,6 +1,7 @@
 // Purpose: contour lines: edges of the image, smoothed along their direction, and the silhouettes,
-//          creases and part borders of models; and the outlines of movers, but not where the
-//          remembered background is seen inside: labels reach beyond what moves.
+//          creases and part borders of models; and the outlines of movers, but not where what is
+//          beside them, or the remembered background, is seen inside: labels reach beyond what
+//          moves, and may end within it.
 // Defines: MODELS: with the lines of models.
 // Inputs:  edges (contour_edges.frag, LINEAR); contour_field.glsl's and mover_labels.glsl's; step_:
 //          px between taps; threshold: the least difference that is a line, in luma; sign_: -1 for
@@ -34,10 +35,13 @@ vec2 sideOf(int i) {
   return i < 2 ? vec2(side, 0.0) : vec2(0.0, side);
 }
 
-// The largest difference of colour between the picture and the remembered background, from px to
-// 3 px inside the label; 1 where the background was never seen. Not asked: 0.
-float unlikeBehind(vec2 px, bool isAsked) {
+vec3 seenAt(vec2 px) { return textureLod(picture, px * pixelsOfFull / size, 0.0).rgb; }
+
+// The largest difference of colour, from px to 3 px inside the label, to what is beside it and to
+// the remembered background, if that was seen there: the lesser of both. Not asked: 0.
+float unlikeGround(vec2 px, bool isAsked) {
   const float kBeside = 3.0;  // px, to find the inner side
+  const float kOutside = 5.0;
   const int kTaps = 3;
   const float kTapPx = 1.5;
   vec2 inwards = vec2(0.0);
@@ -45,14 +49,16 @@ float unlikeBehind(vec2 px, bool isAsked) {
     inwards += moverAt(px + kBeside * sideOf(i)).r * sideOf(i);
   }
   inwards *= inversesqrt(max(dot(inwards, inwards), 1e-6));
-  float most = 0.0;
+  vec3 beside = seenAt(px - kOutside * inwards);
+  vec2 most = vec2(0.0);
   for (int i = isAsked ? 0 : kTaps; i < kTaps; ++i) {
     vec2 at = px + kTapPx * float(i) * inwards;
     vec4 behind = textureLod(background, inLayers(background, at), 0.0);
-    vec3 seen = textureLod(picture, at * pixelsOfFull / size, 0.0).rgb;
-    most = max(most, behind.a < 1.0 ? 1.0 : apart(seen, behind.rgb));
+    vec3 seen = seenAt(at);
+    float unlike = behind.a < 1.0 ? 1.0 : apart(seen, behind.rgb);
+    most = max(most, vec2(unlike, apart(seen, beside)));
   }
-  return most;
+  return min(most.x, most.y);
 }
 
 // The outline of labels that are averaged over nine places, so that it has no steps of their cells,
@@ -73,7 +79,7 @@ float moverLine(vec2 px) {
   float off = abs(2.0 * mover / 9.0 - 1.0) * kRamp * pixelsOfFull.x;
   float line = clamp(min(0.5 * step_ + 0.5, kRamp * pixelsOfFull.x) - off, 0.0, 1.0);
   line *= isNear ? 1.0 : 0.0;
-  return line * smoothstep(0.05, 0.1, unlikeBehind(px, line > 0.0));
+  return line * smoothstep(0.05, 0.1, unlikeGround(px, line > 0.0));
 }
 
 float edgeAt(vec2 pixel) { return textureLod(edges, pixel / size, 0.0).r; }
