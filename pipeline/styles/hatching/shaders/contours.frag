@@ -37,8 +37,9 @@ vec2 sideOf(int i) {
 
 vec3 seenAt(vec2 px) { return textureLod(picture, px * pixelsOfFull / size, 0.0).rgb; }
 
-// The largest difference of colour, from px to 3 px inside the label, to what is beside it and to
-// the remembered background, if that was seen there: the lesser of both. Not asked: 0.
+// The largest difference of colour, from px to 3 px inside the label, to the remembered background,
+// if that was seen there, or half of that to what is beside it, whose shades may differ: the lesser.
+// Not asked: 0.
 float unlikeGround(vec2 px, bool isAsked) {
   const float kBeside = 3.0;  // px, to find the inner side
   const float kOutside = 5.0;
@@ -58,7 +59,7 @@ float unlikeGround(vec2 px, bool isAsked) {
     float unlike = behind.a < 1.0 ? 1.0 : apart(seen, behind.rgb);
     most = max(most, vec2(unlike, apart(seen, beside)));
   }
-  return min(most.x, most.y);
+  return min(most.x, 0.5 * most.y);
 }
 
 // The outline of labels that are averaged over nine places, so that it has no steps of their cells,
