@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/gpu/egl_context.h"
 #include "pipeline/gpu/per_size.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
@@ -150,7 +151,8 @@ struct Painterly::State {
         strips(library),
         drawing(library, painterlyViews()),
         brushes(library),
-        noIds(TextureFormat::kR32ui, {1, 1}) {}
+        noIds(TextureFormat::kR32ui, {1, 1}),
+        drawsOnProcessor(gpu::inspectCurrentContext("painter").isSoftware) {}
 
   const gpu::ShaderLibrary& library;
   ReducedImages reduced;
@@ -165,6 +167,9 @@ struct Painterly::State {
   StrokeDrawing drawing;
   BrushCache brushes;
   Texture noIds;
+  /// A software renderer draws a layer while the next one is laid out, if it is told to begin; what
+  /// draws in tiles would store and load them for each.
+  bool drawsOnProcessor;
   marks::LayerTextures layerTextures;
   std::string palette = "all";  // that `mixtures` are of
   std::optional<Texture> mixtures;
@@ -293,6 +298,7 @@ void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyP
     const Texture& brush = brushes.brush(p.brush, texelsOf(painting->plan, i));
     drawing.draw(painting->layers[i]->strips, brush, light, clipped, painting->full,
                  canvas->strokes);
+    if (drawsOnProcessor) glFlush();
   }
 }
 
