@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <string>
 #include <vector>
 
-#include "pipeline/gpu/buffer.h"
 #include "pipeline/gpu/per_size.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
-#include "pipeline/marks/fading_past.h"
 #include "pipeline/marks/filtered_frame.h"
 #include "pipeline/marks/layer_textures.h"
 #include "pipeline/scene/render/model_hiding.h"
 #include "pipeline/styles/hatching/drawing_plan.h"
+#include "pipeline/styles/hatching/drawing_tone.h"
 #include "pipeline/styles/hatching/hatching_shaders.h"
 #include "pipeline/styles/strokes/brush_cache.h"
 #include "pipeline/styles/strokes/stroke_borders.h"
@@ -44,13 +42,6 @@ constexpr std::array kViews{
 constexpr std::array<glm::vec3, kMaxHatchSets> kSetColours{
     {{0.1F, 0.3F, 0.8F}, {0.85F, 0.25F, 0.1F}, {0.1F, 0.6F, 0.25F}}};
 
-/// A picture whose mean luma is less is lightened, so that a place of that mean has it.
-constexpr float kLeastMean = 0.33F;
-/// The slope of the curve at black, and so what becomes of noise there, is 1 more.
-constexpr float kMostLightening = 2.5F;
-constexpr double kLighteningSeconds = 1.5;  // time constant
-constexpr std::size_t kUniformBytes = 16;   // of a block of one number
-
 constexpr auto kMax = CoherenceGate::Side::kMax;
 constexpr auto kMin = CoherenceGate::Side::kMin;
 /// The limits that its drawings are held to (docs/measuring.md).
@@ -70,39 +61,23 @@ constexpr std::array<std::string_view, 6> kPaperLooks{"pen",       "pencil", "en
 struct Canvas {
   explicit Canvas(hal::FrameSize pictureSize)
       : size(pictureSize),
-        luma(TextureFormat::kR8, size, TextureFilter::kLinear),
-        halfTone(TextureFormat::kRgba16f, halfOf(size), TextureFilter::kLinear),
-        tone(TextureFormat::kRgba16f, halfOf(halfOf(size)), TextureFilter::kLinear),
         edges(TextureFormat::kRg16f, size, TextureFilter::kLinear),
         contours(TextureFormat::kRg8, size, TextureFilter::kLinear),
         borders(TextureFormat::kR32ui, size),
         ink(TextureFormat::kRgba8, size, TextureFilter::kLinear),
         picture(TextureFormat::kRgba8, size, TextureFilter::kLinear),
-        lumaTarget({&luma}),
-        halfToneTarget({&halfTone}),
-        toneTarget({&tone}),
         edgesTarget({&edges}),
         contoursTarget({&contours}),
         bordersTarget({&borders}),
         inkTarget({&ink}),
         pictureTarget({&picture}) {}
 
-  static hal::FrameSize halfOf(hal::FrameSize size) {
-    return {std::max(1, size.width / 2), std::max(1, size.height / 2)};
-  }
-
   hal::FrameSize size;
-  Texture luma;
-  Texture halfTone;
-  Texture tone;
   Texture edges;
   Texture contours;
   Texture borders;  // where lines are clipped
   Texture ink;
   Texture picture;
-  gpu::RenderTarget lumaTarget;
-  gpu::RenderTarget halfToneTarget;
-  gpu::RenderTarget toneTarget;
   gpu::RenderTarget edgesTarget;
   gpu::RenderTarget contoursTarget;
   gpu::RenderTarget bordersTarget;
@@ -117,9 +92,7 @@ struct Drawing {
         plan(given),
         motion(library, full),
         movers(library, full),
-        field(library, full),
-        lightening(kUniformBytes, gpu::BufferUsage::kDynamic) {
-    lightening.write(std::vector<std::byte>(lightening.sizeBytes()));
+        field(library, full) {
     for (std::size_t i = 0; i < plan.sets; ++i) {
       HatchPlan lines = plan.lines;
       lines.seed = lines.seed * 8U + static_cast<unsigned>(i);
@@ -131,8 +104,6 @@ struct Drawing {
   marks::MotionField motion;
   marks::MotionLayers movers;
   marks::TensorField field;
-  gpu::Buffer lightening;   // of dark pictures (shaders/tone_lightening.comp)
-  hal::TimePoint lastTime;  // of `lightening`
   std::vector<std::unique_ptr<HatchLines>> sets;
 };
 
@@ -157,10 +128,7 @@ struct Hatching::State {
       : library(shaders),
         hiding(library),
         filtered(library),
-        lumaOnce(library.fragmentPass(kShaders + "luma.frag", {}, {TextureFormat::kR8})),
-        toneFirst(library.fragmentPass(kShaders + "tone.frag", {}, {TextureFormat::kRgba16f})),
-        toneLightening(library.compute(kShaders + "tone_lightening.comp")),
-        toneBlur(library.fragmentPass(kShaders + "tone_blur.frag", {}, {TextureFormat::kRgba16f})),
+        tone(library),
         contourEdges(
             library.fragmentPass(kShaders + "contour_edges.frag", {}, {TextureFormat::kRg16f})),
         contourLines(library.fragmentPass(kShaders + "contours.frag", {}, {TextureFormat::kRg8})),
@@ -178,10 +146,7 @@ struct Hatching::State {
   const gpu::ShaderLibrary& library;
   scene::ModelHiding hiding;
   marks::FilteredFrame filtered;
-  gpu::Program lumaOnce;
-  gpu::Program toneFirst;
-  gpu::Program toneLightening;
-  gpu::Program toneBlur;
+  DrawingTone tone;
   gpu::Program contourEdges;
   gpu::Program contourLines;
   gpu::Program contourLinesOfModels;
@@ -205,8 +170,6 @@ struct Hatching::State {
   }
   void take(const scene::ArFrame& frame, const HatchingParameters& p);
   void follow(const scene::ArFrame& frame, const HatchingParameters& p);
-  void findTone(const scene::ArFrame& frame, const HatchingParameters& p);
-  void findLightening(const scene::ArFrame& frame);
   void findContours(const scene::ArFrame& frame, const HatchingParameters& p);
   void drawPart(StripPart part, bool isClipped, const scene::ArFrame& frame,
                 const HatchingParameters& p, const StrokeStrips& laid);
@@ -219,7 +182,10 @@ void Hatching::State::take(const scene::ArFrame& frame, const HatchingParameters
   canvas = nullptr;
   const DrawingPlan plan = drawingPlanOf(p, frame.full());
   if (drawing == nullptr || drawing->full != frame.full() || drawing->plan != plan) {
-    if (drawing != nullptr && drawing->full != frame.full()) canvases.clear();
+    if (drawing != nullptr && drawing->full != frame.full()) {
+      canvases.clear();
+      tone.clear();
+    }
     drawing.reset();
     drawing = std::make_unique<Drawing>(library, frame.full(), plan);
   }
@@ -247,39 +213,10 @@ void Hatching::State::follow(const scene::ArFrame& frame, const HatchingParamete
     filtered.reset();
     source = frame.colour;
   }
-}
-
-void Hatching::State::findTone(const scene::ArFrame& frame, const HatchingParameters& p) {
-  lumaOnce.use().texture("picture", *source).drawFullscreen(canvas->lumaTarget);
-  toneFirst.use()
-      .texture("lumas", canvas->luma)
-      .texture("ids", frame.hasObjects ? *frame.ids : noIds)
-      .texture("movers", layerTextures.labelsOf(moversOf(p)))
-      .texture("background", layerTextures.backgroundOf(moversOf(p)))
-      .set("hasObjects", frame.hasObjects ? 1 : 0)
-      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
-      .drawFullscreen(canvas->halfToneTarget);
-  if (p.lighten > 0.0) findLightening(frame);
-  const hal::FrameSize size = canvas->tone.size();
-  toneBlur.use()
-      .texture("halfTone", canvas->halfTone)
-      .uniformBlock("ToneLightening", drawing->lightening, 0, drawing->lightening.sizeBytes())
-      .set("lighten", static_cast<float>(p.lighten))
-      .set("size", glm::vec2(size.width, size.height))
-      .drawFullscreen(canvas->toneTarget);
-}
-
-void Hatching::State::findLightening(const scene::ArFrame& frame) {
-  const hal::Duration step = marks::timeStep(drawing->lastTime, frame.captureTime);
-  drawing->lastTime = frame.captureTime;
-  const float kept = drawing->motion.isCut() ? 0.0F : marks::keptAfter(step, kLighteningSeconds);
-  toneLightening.use()
-      .texture("halfTone", canvas->halfTone)
-      .storage("ToneLightening", drawing->lightening)
-      .set("least", kLeastMean)
-      .set("most", kMostLightening)
-      .set("share", 1.0F - kept)
-      .dispatch({1, 1}, GL_UNIFORM_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+  tone.update(frame, {.source = source,
+                      .movers = moversOf(p),
+                      .isCut = drawing->motion.isCut(),
+                      .lighten = p.lighten});
 }
 
 void Hatching::State::findContours(const scene::ArFrame& frame, const HatchingParameters& p) {
@@ -303,7 +240,7 @@ void Hatching::State::findContours(const scene::ArFrame& frame, const HatchingPa
         .set("step_", step);
   };
   bindField(contourEdges.use());
-  contourEdges.texture("luma", canvas->luma).drawFullscreen(canvas->edgesTarget);
+  contourEdges.texture("luma", tone.luma()).drawFullscreen(canvas->edgesTarget);
   gpu::Program& pass = frame.hasObjects ? contourLinesOfModels : contourLines;
   bindField(pass.use());
   pass.texture("edges", canvas->edges)
@@ -327,7 +264,7 @@ void Hatching::State::drawLines(const scene::ArFrame& frame, const HatchingParam
     drawing->sets[i]->update(frame,
                              {.motion = &drawing->motion,
                               .field = &drawing->field,
-                              .tone = &canvas->tone,
+                              .tone = &tone.tone(),
                               .movers = moversOf(p),
                               .colours = source},
                              rule);
@@ -388,7 +325,7 @@ void Hatching::State::show(const scene::ArFrame& frame, const HatchingParameters
       .texture("edges", canvas->edges)
       .set("view", static_cast<int>(viewIndex(kViews, name)))
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()));
-  bindHatchTone(view, frame, canvas->tone, hatchRuleOf(p, frame, 0));
+  bindHatchTone(view, frame, tone.tone(), hatchRuleOf(p, frame, 0));
   view.drawFullscreen(canvas->pictureTarget);
 }
 
@@ -454,6 +391,7 @@ void Hatching::warmUp(SceneContents contents) {
   state_->filtered.reset();
   state_->canvas = nullptr;
   state_->canvases.clear();
+  state_->tone.clear();
 }
 
 hal::Result<void> Hatching::prepare(const config::ParameterValues& values) {
@@ -470,7 +408,6 @@ const Texture& Hatching::paint(const scene::ArFrame& frame, std::string_view vie
   State& s = *state_;
   s.take(frame, p_);
   s.follow(frame, p_);
-  s.findTone(frame, p_);
   s.findContours(frame, p_);
   s.drawLines(frame, p_, view);
   if (view.empty()) {

@@ -24,8 +24,9 @@ const StyleKind& hatchingKind();
 ///
 /// Time: tones and contours are taken from an image that is averaged along its motion
 /// (marks::FilteredFrame). A first frame (after reset(), a cut, another full size, another
-/// `spacing`, `length`, `coverage`, `directions` or `seed`) has no past. A dark picture is lightened
-/// by a curve that follows its background within some seconds, and at such a frame at once.
+/// `spacing`, `length`, `coverage`, `directions` or `seed`) has no past. A dark picture is
+/// lightened by a curve that follows its background within some seconds, and at such a frame at
+/// once.
 class Hatching final : public Style {
  public:
   /// The library, which outlives it, holds gpu::hatchingShaders(), strokesShaders(),

@@ -1,6 +1,6 @@
 // Purpose: how much a dark picture is lightened, so that lines tell its darks apart: luma l becomes
 //          l (1 + lightening) / (1 + lightening l), which takes the background's mean luma to
-//          `least`. Movers change nothing about it.
+//          `least`. What is before the background hardly counts.
 // Inputs:  halfTone (tone.frag, LINEAR); least: in (0, 1); most: of lightening; share: of the way to
 //          this frame's value, in [0, 1].
 // Outputs: lightening, 0 for pictures that are bright enough. One work group.
@@ -13,7 +13,7 @@ uniform float most;
 uniform float share;
 
 const ivec2 kGrid = ivec2(64, 48);  // of places that are looked at
-const float kModels = 0.02;  // weight beside the background, which a picture of models has not
+const float kFront = 0.02;  // its weight: a picture may show nothing else
 
 shared vec2 sums[64];
 
@@ -24,7 +24,7 @@ void main() {
     vec2 place = (vec2(float(me), float(row)) + 0.5) / vec2(kGrid);
     sum += textureLod(halfTone, place, 0.0);
   }
-  vec2 seen = sum.xy + kModels * sum.zw;
+  vec2 seen = sum.xy + kFront * sum.zw;
   sums[me] = seen;
   barrier();
   if (me != 0u) return;
