@@ -90,14 +90,15 @@ endfunction()
 
 option(PLEINAIR_ONE_PROCESS_TESTS "Run each test program in one process: where starting one is slow" OFF)
 
-# pleinair_tests(NAME KIND kind SOURCES ... [ALONE sources ...] [LIBS ...] [TIMEOUT seconds] [QUICK] [BY_SUITE])
+# pleinair_tests(NAME KIND kind SOURCES ... [ALONE sources ...] [LIBS ...] [TIMEOUT seconds] [QUICK] [BY_SUITE] [SERIAL])
 # A GoogleTest executable of one kind (unit, conformance, gpu, golden ...). The kind is the prefix of
 # its tests' names and their CTest label; QUICK makes the label "kind-quick", which `./dev test quick`
 # selects. CTest runs each case in a process of its own. BY_SUITE, which gpu and golden imply, runs
-# each suite in one process, which loads the GL driver and compiles its code once a suite.
+# each suite in one process, which loads the GL driver and compiles its code once a suite. SERIAL
+# runs no other test beside its cases, which depend on the machine's speed.
 # PLEINAIR_ONE_PROCESS_TESTS makes one test "kind.NAME" of each executable.
 function(pleinair_tests name)
-  cmake_parse_arguments(ARG "QUICK;BY_SUITE" "KIND;TIMEOUT" "SOURCES;ALONE;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "QUICK;BY_SUITE;SERIAL" "KIND;TIMEOUT" "SOURCES;ALONE;LIBS" ${ARGN})
   set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   # It replaces operator new, which other sources of its batch would see.
   set_source_files_properties("${CMAKE_SOURCE_DIR}/tests/support/allocation_count.cpp"
@@ -137,7 +138,7 @@ pleinair_add_suites(\"$<TARGET_FILE:${name}>\" ${name} ${ARG_KIND} ${label} ${AR
     set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${list}")
   else()
     gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 30
-      TEST_PREFIX "${ARG_KIND}." PROPERTIES LABELS "${label}" TIMEOUT ${ARG_TIMEOUT})
+      TEST_PREFIX "${ARG_KIND}." PROPERTIES LABELS "${label}" TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL "${ARG_SERIAL}")
   endif()
 endfunction()
 
