@@ -26,6 +26,10 @@ const gpu::Texture& LayerTextures::backgroundOf(const MotionLayers* layers) cons
   return layers != nullptr ? layers->background() : none_;
 }
 
+const gpu::Texture& LayerTextures::activityOf(const MotionLayers* layers) const {
+  return layers != nullptr ? layers->activity() : none_;
+}
+
 const gpu::Texture& LayerTextures::moverMotionOf(const MotionLayers* layers) const {
   return layers != nullptr ? layers->moverMotion() : none_;
 }

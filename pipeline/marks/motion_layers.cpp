@@ -122,6 +122,7 @@ struct MotionLayers::State {
       labels.at(i) = {TextureFormat::kRgba16f, size, TextureFilter::kLinear};
       shares.at(i) = {TextureFormat::kRgba8, size, TextureFilter::kLinear};
       backgrounds.at(i) = {TextureFormat::kRgba16f, size, TextureFilter::kLinear};
+      activities.at(i) = {TextureFormat::kR32f, size};
       noMovers.at(i) = gpu::RenderTarget({&shares.at(i), &carried});
     }
   }
@@ -161,6 +162,7 @@ struct MotionLayers::State {
   std::array<gpu::Texture, 2> labels;
   std::array<gpu::Texture, 2> shares;
   std::array<gpu::Texture, 2> backgrounds;
+  std::array<gpu::Texture, 2> activities;
   std::array<gpu::RenderTarget, 2> noMovers;  // of shares and carried, to clear them
   gpu::Buffer tally;
   gpu::Buffer busy;  // shaders/busy_blocks.glsl
@@ -244,6 +246,7 @@ gpu::Program& MotionLayers::State::beginToCompare(gpu::Program& program,
       .texture("picture", frame.camera())
       .texture("lastPicture", pictures.at(before))
       .texture("background", backgrounds.at(before))
+      .texture("backgroundActivity", activities.at(before))
       .texture("labels", labels.at(before))
       .texture("motion", motion.backward())
       .set("hasPast", hasPast ? 1 : 0)
@@ -385,6 +388,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .texture("candidates", s.candidates)
       .texture("evidence", s.evidence)
       .texture("picture", s.pictures.at(s.now))
+      .texture("backgroundActivity", s.activities.at(before))
       .image("ground", s.ground, ImageAccess::kWrite);
   s.dispatchBusy(s.findGround, BlockCommand::kGround);
   gpu::Program& settle = isAtRest ? s.settleAtRest : s.settle;
@@ -394,9 +398,11 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .texture("evidence", s.evidence)
       .texture("picture", s.pictures.at(s.now))
       .texture("background", s.backgrounds.at(before))
+      .texture("backgroundActivity", s.activities.at(before))
       .set("freshSeconds", kFreshSeconds)
       .image("labels", s.labels.at(s.now), ImageAccess::kWrite)
       .image("backgroundNow", s.backgrounds.at(s.now), ImageAccess::kWrite)
+      .image("activityNow", s.activities.at(s.now), ImageAccess::kWrite)
       .dispatch(s.cells(), kStored);
   s.begin(s.join, frame, motion, step);
   s.bindBusy(s.join)
@@ -405,6 +411,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .texture("evidence", s.evidence)
       .texture("picture", s.pictures.at(s.now))
       .texture("background", s.backgrounds.at(before))
+      .texture("backgroundActivity", s.activities.at(before))
       .texture("front", s.hasFront ? s.front.front() : s.noMotion)
       .set("hasFront", s.hasFront ? 1 : 0)
       .set("isDoubted", s.sinceFirst < kDoubted ? 1 : 0)
@@ -414,7 +421,8 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .set("reach", 1)
       .set("noise", noiseOf(motion))
       .image("labels", s.labels.at(s.now), ImageAccess::kWrite)
-      .image("backgroundNow", s.backgrounds.at(s.now), ImageAccess::kWrite);
+      .image("backgroundNow", s.backgrounds.at(s.now), ImageAccess::kWrite)
+      .image("activityNow", s.activities.at(s.now), ImageAccess::kWrite);
   s.dispatchBusy(s.join, BlockCommand::kBusy);
   s.tellApart(frame, motion, motionScale);
   s.followMovers(frame, motion, motionScale, step);
@@ -453,6 +461,10 @@ std::optional<scene::ModelCover> MotionLayers::cover() const {
 
 const gpu::Texture& MotionLayers::background() const {
   return state_->backgrounds.at(state_->now);
+}
+
+const gpu::Texture& MotionLayers::activity() const {
+  return state_->activities.at(state_->now);
 }
 
 const gpu::Texture& MotionLayers::moverMotion() const {

@@ -30,7 +30,8 @@ struct MotionLayersOptions {
 /// at its last place. Changes of light that leave edges where they are make no mover, nor does a
 /// change of more than half of the image, or of less if most edges in it stay. What a mover
 /// uncovers for the first time is background as soon as it rests, if the camera stands and it is
-/// like its surroundings, else like any other mover. What has changed once and then rests, without
+/// like its surroundings, else like any other mover. What differs by no more than it always does,
+/// such as leaves in the wind, is background. What has changed once and then rests, without
 /// a mover beside it, is background after 0.7 s. (Background subtraction with a running mean:
 /// Piccardi, "Background subtraction techniques: a review", 2004.)
 ///
@@ -76,6 +77,9 @@ class MotionLayers {
   /// RGBA16F, LINEAR, as large: the background's mean colour, sRGB-coded, also behind movers; and
   /// the number of frames in it, 0 where it was never seen.
   const gpu::Texture& background() const;
+  /// R32F, as large: how dynamic the background is, as leaves in the wind are
+  /// (shaders/background_activity.glsl).
+  const gpu::Texture& activity() const;
   static constexpr int kCellPixels = 2;
   /// Waits for the GPU and reads labels(), for measures: grey, 255 on movers, a pixel for each
   /// texel. Throws hal::Failure (kUnsupported) where the GPU cannot read such a texture.

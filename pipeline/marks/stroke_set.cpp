@@ -172,15 +172,14 @@ void StrokeSet::State::traceListed(gpu::Program& program, std::size_t groups,
   const std::size_t level = std::min(rule.fieldLevel, field.levelCount() - 1);
   const bool hasDepth = frame.hasObjects && frame.depth != nullptr;
   const std::size_t detail = field.detailLevel();
+  const bool isOnModels = groups == kOnModels;
   program.use()
       .storage("Anchors", anchors.anchors())
       .storage("Strokes", strokes)
       .storage("StrokeLists", lists)
-      .texture("field", field.resolved(level))
-      .texture("detailField", field.resolved(detail))
+      .texture("field", isOnModels ? field.resolvedModels(level) : field.resolved(level))
+      .texture("detailField", isOnModels ? field.resolvedModels(detail) : field.resolved(detail))
       .texture("moverField", field.movers())
-      .texture("modelField", field.resolvedModels(level))
-      .texture("modelDetailField", field.resolvedModels(detail))
       .texture("paint", *paint.background)
       .texture("moverPaint", *paint.movers)
       .texture("modelPaint", *paint.models)
@@ -234,6 +233,7 @@ void StrokeSet::State::traceListed(gpu::Program& program, std::size_t groups,
       .set("focalPx", frame.surfaces ? focalOf(*frame.surfaces, frame) : 0.0F)
       .set("layer", glm::vec2(rule.layer, rule.layers));
   if (program.hasUniform("beside")) program.set("beside", rule.besidePx);
+  if (program.hasUniform("backgroundActivity")) program.texture("backgroundActivity", layerTextures.activityOf(layers));
   if (program.hasUniform("hasSegments")) program.set("hasSegments", borders != nullptr ? 1 : 0);
   rule.focus.bind(program);
   program.dispatchListed(lists, groups, program.groupsFor({static_cast<int>(slots), 1}),

@@ -179,6 +179,8 @@ void TensorField::State::sumRegions(const scene::ArFrame& frame, const MotionFie
       .set("hasPast", past.isThere ? 1 : 0)
       .set("past", past.share)
       .set("slack", past.slack)
+      .texture("backgroundActivity", layerTextures.activityOf(layers))
+      .set("rests", layers != nullptr && layers->isStanding() ? 1 : 0)
       .dispatch(itemsOf(finest.regions), kWritten);
   pyramid.fill(moverRegions, kMoverSigma, movers);
 }

@@ -1,6 +1,6 @@
 // Purpose: compares a cell of the picture with the remembered background and with the previous frame
 //          (marks/motion_layers.h).
-// Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's; picture (ArFrame::camera());
+// Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's, background_activity.glsl's; picture (ArFrame::camera());
 //          lastPicture, background, labels: the previous frame's, if hasPast; motion: MotionField's
 //          field; noise: sigma of a cell, in [0, 1].
 // Outputs: functions, which store candidates and evidence, as motion_layers.comp's.
@@ -8,6 +8,7 @@
 #include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/marks/shaders/motion_layers.glsl"
 #include "pipeline/marks/shaders/motion_layers_tally.glsl"
+#include "pipeline/marks/shaders/background_activity.glsl"
 layout(rgba8, binding = 0) writeonly uniform highp image2D candidates;
 layout(rgba16f, binding = 1) writeonly uniform highp image2D evidence;
 uniform highp sampler2D picture;
@@ -90,10 +91,12 @@ Compared compared(Seen cell) {
   c.frames = known.a;
   vec3 before = pastAt(lastPicture, cell.from).rgb;
   float least = (isStanding ? 1.0 : kMovingSlack) * (kSlack + kNoiseDeviations * noise);
+  float certain = kCertainThresholds * least;
+  float slack = slackOf(activityAt(cell.from));
   c.unlike = known.a < 0.5 ? 0.0 : beyond(known.rgb, low, high);
-  c.other = smoothstep(least, kCertainThresholds * least, c.unlike);
+  c.other = smoothstep(least + slack, certain + slack, c.unlike);
   c.other *= 1.0 - shadeOf(cell.now, known.rgb);
-  c.changed = smoothstep(least, kCertainThresholds * least, beyond(before, low, high));
+  c.changed = smoothstep(least + slack, certain + slack, beyond(before, low, high));
 
   c.moved = textureLod(motion, cell.px / fullSize, 0.0);
   // Measured motion may still be that of most of the image.

@@ -1,9 +1,9 @@
 // Purpose: the mean colour of what is surely background, in blocks of cells: what a place that is
 //          other content may be expected to look like if it has just been uncovered. It also
 //          counts the blocks with edges that have changed, and those of them that have kept their
-//          edges: most do if the light changes.
+//          edges: most do if the light changes. Leaves in the wind do, too: they do not count.
 // Inputs:  candidates, evidence (motion_layers.comp); picture: this frame's, in cells;
-//          busy_blocks.glsl's commands.
+//          busy_blocks.glsl's commands; background_activity.glsl's.
 // Outputs: ground RGBA16F: the colour times the share of the block that is background, and that
 //          share. changedBlocks, keptBlocks (motion_layers_tally.glsl). One invocation per block of
 //          kLayerBlock² cells.
@@ -11,6 +11,7 @@
 #include "pipeline/marks/shaders/busy_blocks.glsl"
 #include "pipeline/marks/shaders/motion_layers_tally.glsl"
 #include "pipeline/marks/shaders/structure.glsl"
+#include "pipeline/marks/shaders/background_activity.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D ground;
 uniform highp sampler2D candidates;
@@ -38,7 +39,9 @@ void main() {
       if (isGround) sum += vec4(texelFetch(picture, ivec2(x, y), 0).rgb, 1.0);
     }
   }
-  if (hasEdges(structure) && changed > kChanged * structure.count) {
+  vec2 middle = (vec2(first + end) * 0.5) * kLayerCellPixels;
+  bool isQuiet = dynamicShare(activityAt(middle)) < 1.0;
+  if (isQuiet && hasEdges(structure) && changed > kChanged * structure.count) {
     atomicAdd(changedBlocks[turn], 1u);
     if (isSame(structure)) atomicAdd(keptBlocks[turn], 1u);
   }

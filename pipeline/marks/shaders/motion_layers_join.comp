@@ -1,9 +1,9 @@
 // Purpose: decides which cells belong to movers, from all that motion_layers.comp found around
 //          each, and adds the others to the background (marks/motion_layers.h), in the blocks where
 //          there is other content.
-// Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's; candidates, evidence
-//          (motion_layers.comp); ground (motion_layers_ground.comp); picture: this frame's, in
-//          cells; background: the previous frame's; restSeconds: after so long a mover
+// Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's, background_activity.glsl's;
+//          candidates, evidence (motion_layers.comp); ground (motion_layers_ground.comp); picture:
+//          this frame's, in cells; background: the previous frame's; restSeconds: after so long a mover
 //          that rests joins the background, frontRestSeconds: if it is before a model; front: the
 //          previous frame's (front_movers.comp), if hasFront; isDoubted: what is remembered may be
 //          a mover that stood there when the camera began to look; freshSeconds: freshness falls to 0
@@ -11,16 +11,19 @@
 // Outputs: labels RGBA16F: 1 on movers, else 0; freshness: 1 where the label has just changed,
 //          falling to 0; rest and maturity, s, the latter below 0 where a mover has left.
 //          backgroundNow RGBA16F: its mean colour, and the frames in the mean, 0 if it was never
-//          seen. A group of invocations per block of the second list of busy_blocks.glsl.
+//          seen. activityNow R32F: this frame's backgroundActivity. A group of invocations per
+//          block of the second list of busy_blocks.glsl.
 // Precision: highp.
 #include "pipeline/marks/shaders/background_mean.glsl"
 #include "pipeline/marks/shaders/busy_blocks.glsl"
 #include "pipeline/marks/shaders/motion_layers.glsl"
 #include "pipeline/marks/shaders/motion_layers_tally.glsl"
 #include "pipeline/marks/shaders/structure.glsl"
+#include "pipeline/marks/shaders/background_activity.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D labels;
 layout(rgba16f, binding = 1) writeonly uniform highp image2D backgroundNow;
+layout(r32f, binding = 2) writeonly uniform highp image2D activityNow;
 uniform highp sampler2D candidates;
 uniform highp sampler2D evidence;
 uniform highp sampler2D picture;
@@ -304,6 +307,13 @@ void main() {
   }
   float fresh = isMover != wasMover ? 1.0 : max(past.a - stepSeconds / freshSeconds, 0.0);
   imageStore(labels, cell, vec4(isMover ? 1.0 : 0.0, fresh, rest, maturity));
+  // What has been seen to move, and rests now, tells nothing of what is behind it.
+  isLasting = maturity > kMatureSeconds;
+  float pace = isLasting ? kMoverActivitySeconds : kActivitySeconds;
+  bool tells = isStanding && known.a >= 0.5 && !(isLasting && rest > 0.0);
+  float activity = known.a >= 0.5 ? activityAt(from) : 0.0;
+  activity = tells ? activityAfter(activity, apart(now, known.rgb), stepSeconds, pace) : activity;
+  imageStore(activityNow, cell, vec4(activity));
   // Beside a mover, some of it may not be labelled.
   bool isBeside = others > 0.08 && hasCause && !isLight;
   if (!isMover && (known.a < 0.5 || !isBeside)) {

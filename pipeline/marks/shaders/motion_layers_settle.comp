@@ -1,18 +1,21 @@
 // Purpose: adds each cell to the background, as if no other content were near; where there is, the
 //          passes that follow write over it. It also ends the turn of what is counted and listed.
 // Defines: motion_layers.glsl's.
-// Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's, busy_blocks.glsl's; evidence
-//          (motion_layers.comp); picture: this frame's, in cells; background: the previous frame's,
-//          if hasPast; freshSeconds: as motion_layers_join.comp's.
-// Outputs: labels, backgroundNow: as motion_layers_join.comp's. One invocation per cell.
+// Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's, busy_blocks.glsl's,
+//          background_activity.glsl's; evidence (motion_layers.comp); picture: this frame's, in
+//          cells; background: the previous frame's, if hasPast; freshSeconds: as
+//          motion_layers_join.comp's.
+// Outputs: labels, backgroundNow, activityNow: as motion_layers_join.comp's. One invocation per cell.
 // Precision: highp.
 #include "pipeline/marks/shaders/background_mean.glsl"
 #include "pipeline/marks/shaders/busy_blocks.glsl"
 #include "pipeline/marks/shaders/motion_layers.glsl"
 #include "pipeline/marks/shaders/motion_layers_tally.glsl"
+#include "pipeline/marks/shaders/background_activity.glsl"
 layout(local_size_x = 16, local_size_y = 4) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D labels;
 layout(rgba16f, binding = 1) writeonly uniform highp image2D backgroundNow;
+layout(r32f, binding = 2) writeonly uniform highp image2D activityNow;
 uniform highp sampler2D evidence;
 uniform highp sampler2D picture;
 uniform highp sampler2D background;
@@ -34,6 +37,7 @@ void main() {
   if (!hasPast) {
     imageStore(labels, cell, vec4(0.0));
     imageStore(backgroundNow, cell, vec4(now, 1.0));
+    imageStore(activityNow, cell, vec4(0.0));
     return;
   }
   vec4 past = texelFetch(evidence, cell, 0);
@@ -41,6 +45,11 @@ void main() {
   vec2 from = px - backgroundShift(px);
   vec4 known = vec4(now, 0.0);
   if (isInPicture(from) && past.r >= 0.0) known = pastAt(background, from);
+  float activity = known.a < 0.5 ? 0.0 : activityAt(from);
+  if (isStanding && known.a >= 0.5) {
+    activity = activityAfter(activity, apart(now, known.rgb), stepSeconds, kActivitySeconds);
+  }
+  imageStore(activityNow, cell, vec4(activity));
   float frames = framesWith(known.a, isStanding ? kFrames : kMovingFrames);
   imageStore(backgroundNow, cell, withColour(known, now, frames));
   float fresh = max(past.a - stepSeconds / freshSeconds, 0.0);

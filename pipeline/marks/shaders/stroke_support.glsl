@@ -3,8 +3,8 @@
 // Defines: ON_MODELS: strokes on models; MOVERS_ONLY: strokes on movers, and those of the background
 //          that reach neither objects nor segments (stroke_lists.comp): ids, labels and depth are not
 //          read; neither: the background's that may reach them.
-// Inputs:  field: tensors to follow, detailField: tensors with the detail; modelField,
-//          modelDetailField, moverField: those of virtual objects and of movers, each with its
+// Inputs:  field: tensors to follow, detailField: tensors with the detail, both of virtual objects
+//          with ON_MODELS, of the background else; moverField: those of movers; each with its
 //          scale, px of the full image to texture coordinates; mover_places.glsl's and
 //          mover_motion.glsl's; paint, modelPaint, moverPaint: the reduced images of the
 //          background, of models and of movers; finePaint, fineGround: the finest of models and of
@@ -22,8 +22,6 @@
 #include "pipeline/scene/render/shaders/surface_form.glsl"
 uniform highp sampler2D field;
 uniform highp sampler2D detailField;
-uniform highp sampler2D modelField;
-uniform highp sampler2D modelDetailField;
 uniform highp sampler2D moverField;
 uniform highp sampler2D paint;
 uniform highp sampler2D modelPaint;
@@ -120,9 +118,7 @@ Support supportOf(uint label, bool isOnMover, vec2 px) {
 
 vec2 directionAt(vec2 px, Support on) {
   vec2 tensor;
-  if (isModel) {
-    tensor = textureLod(modelField, px * fieldScale, 0.0).xy;
-  } else if (on.isOnMover) {
+  if (on.isOnMover) {
     tensor = textureLod(moverField, px * moverScale, 0.0).xy;
     tensor = dot(tensor, tensor) > 1e-3 ? tensor : kUpright;
   } else {
@@ -184,7 +180,7 @@ vec3 colourAt(vec2 px, Support on) {
 float detailAt(vec2 px, Support on) {
   const float kLooseDetail = 0.6;
   if (isModel) {
-    return modelDetail * textureLod(modelDetailField, px * detailScale, 0.0).w;
+    return modelDetail * textureLod(detailField, px * detailScale, 0.0).w;
   }
   float detail = on.isOnMover ? textureLod(moverField, px * moverScale, 0.0).w
                               : textureLod(detailField, px * detailScale, 0.0).w;

@@ -5,7 +5,8 @@
 //          its depth makes a step.
 // Defines: stroke_support.glsl's, for the lists of stroke_lists.glsl.
 // Inputs:  anchors, slots of them; StrokeLists: those that are traced (stroke_lists.glsl);
-//          stroke_walk.glsl's; background (marks::MotionLayers); ids (ArFrame), ON_MODELS;
+//          stroke_walk.glsl's; background (marks::MotionLayers); background_activity.glsl's, but
+//          with ON_MODELS; ids (ArFrame), ON_MODELS;
 //          depthRange: the near and the far plane in metres, 0: no depth; focalPx: of
 //          the full image, 0: not known; imageScale: the anchors', octaves; focus.glsl's; layer: its
 //          number and how many; the rest as in marks::StrokeRule.
@@ -20,6 +21,7 @@
 #include "pipeline/marks/shaders/stroke_history.glsl"
 #include "pipeline/marks/shaders/stroke_lists.glsl"
 #include "pipeline/marks/shaders/stroke_walk.glsl"
+#include "pipeline/marks/shaders/background_activity.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
@@ -115,11 +117,25 @@ const float kMoverShrinking = 20.0;
 const float kModelHold = 0.25;  // of the rate at which shapes change elsewhere
 
 // An arm that now covers other content shrinks faster than it would grow. One that was cut short
-// by something that has gone grows, however long shapes are held.
-float heldLength(float now, float was, float stays, bool isOnMover) {
+// by something that has gone grows, however long shapes are held. Where the background is dynamic,
+// both would happen all the time.
+float heldLength(float now, float was, float stays, bool isOnMover, float dynamic) {
   float shrinking = pow(past.x, isOnMover ? kMoverShrinking : kShrinking);
   float rate = was < 0.3 * now ? past.x : now < 0.6 * was ? min(stays, shrinking) : stays;
-  return mix(now, was, rate);
+  return mix(now, was, mix(rate, stays, dynamic));
+}
+
+// How dynamic the background is where a stroke lies: the most of its middle, of places along both
+// arms, and of both sides.
+float activityAlong(vec2 px, vec2 heading) {
+  float most = activityAt(px);
+  vec2 arm = segment * heading;
+  for (int i = 0; i < arms.x; ++i) {
+    for (int k = 1; k <= 3; ++k) most = max(most, activityAt(px + 1.5 * float(k) * arm));
+    most = max(most, activityAt(px + vec2(-arm.y, arm.x)));
+    arm = -arm;
+  }
+  return most;
 }
 
 // Other content has come to rest in front of the stroke if it is new and of another colour.
@@ -311,13 +327,19 @@ void main() {
   bool wanted = isWanted(slot, px, seen, isResting, isNew);
   float goal = wanted ? 1.0 : 0.0;
   // The past ends where the stroke stands on clearly other content.
-  float restless = isResting ? 0.0 : smoothstep(flatDetail.x, flatDetail.y, seen);
+  float moves = isResting ? 0.0 : smoothstep(flatDetail.x, flatDetail.y, seen);
   // A surface carries its strokes exactly: what changes is how its field is seen.
   float most = isModel ? kModelHold : 1.0;
-  float hold = mix(min(1.0 / flatHold, most), most, restless);
+  float hold = mix(min(1.0 / flatHold, most), most, moves);
   float stays = isOnMover ? past.x : pow(past.x, hold);
   vec3 change = colour - strokes[slot].colour;
-  float changed = isNew ? 0.0 : smoothstep(otherColour.x, otherColour.y, weightedLength(change));
+  vec2 other = otherColour;
+  float activity = 0.0;
+  if (!isModel && isResting) {
+    activity = activityAlong(px, heading);
+    other += slackOf(activity);
+  }
+  float changed = isNew ? 0.0 : smoothstep(other.x, other.y, weightedLength(change));
   uint now = label | (wanted ? kWanted : 0u) | (isModel ? 0u : strokes[slot].state & kAccent);
   if (isModel && !isNew) now = withGirth(now, mix(1.0, girthOf(strokes[slot].state), past.x));
   strokes[slot].state = now;
@@ -327,8 +349,9 @@ void main() {
     float was = strokes[slot].exists;
     exists = mix(goal, was, (1.0 - changed) * (goal > was ? past.z : past.w));
     if (abs(exists - goal) < 0.02) exists = goal;
-    lengths = vec2(heldLength(lengths.x, strokes[slot].lengths.x, stays, isOnMover),
-                   heldLength(lengths.y, strokes[slot].lengths.y, stays, isOnMover));
+    float dynamic = dynamicShare(activity);
+    lengths = vec2(heldLength(lengths.x, strokes[slot].lengths.x, stays, isOnMover, dynamic),
+                   heldLength(lengths.y, strokes[slot].lengths.y, stays, isOnMover, dynamic));
     float held = (1.0 - past.y) * min(1.0, maxColour / max((1.0 - past.y) * length(change), 1e-6));
     colour = strokes[slot].colour + change * mix(held, 1.0, changed);
   }

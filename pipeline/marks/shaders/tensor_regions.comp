@@ -8,7 +8,8 @@
 // Inputs:  tensors (gradient.frag), edge_threshold.comp's, pixelsOfFull; regionPixels: a
 //          region's side in px of the full image; before, moversBefore: the previous frame's
 //          regions, motion (MotionField's), if hasPast; past: the share of them that remains;
-//          slack: by which part detail may differ from the held value; image_motion.glsl's, flow
+//          slack: by which part detail may differ from the held value; rests: the camera stands,
+//          and movers are told apart; background_activity.glsl's; image_motion.glsl's, flow
 //          backward; edge_parts.glsl's; ids and objectBounds (ArFrame) if
 //          hasObjects; surfaceMotion (ArFrame::motion) if hasSurfaces.
 // Outputs: regions, moverRegions RGBA16F: as in tensor_region.glsl. One invocation per region.
@@ -36,12 +37,18 @@ uniform float regionPixels;
 uniform bool hasPast;
 uniform float past;
 uniform float slack;
+uniform bool rests;
 #include "pipeline/marks/shaders/edge_parts.glsl"
+#include "pipeline/marks/shaders/background_activity.glsl"
 
 const float kLeastSeen = 0.35;  // of a region: less of the background says nothing about it
 
 const float kLeastSurface = 0.5;  // of a region: planes and real things that fill less say nothing
 const float kKnownPx = 4.0;  // of error: a motion that is less certain carries no past
+
+// Where the background is dynamic: the past remains so many times longer, and the slack.
+const float kDynamicHold = 9.0;
+const float kDynamicSlack = 0.5;
 
 const float kReach = 6.0;  // px: half a region, and the width of an edge
 
@@ -201,13 +208,16 @@ void main() {
         source.isKnown = isInPicture(source.from);
       }
     }
+    if (rests) source = Source(at, mat2(1.0), true);
     if (source.isKnown) {
       vec4 old = textureLod(before, source.from * scale, 0.0);
       old.xy = carriedBy(old.xy, source.jacobian);
       if (isHeld) {
         now = old;
       } else if (old.w > 0.0) {
-        now = held(now, old, stays, slack);
+        float dynamic = rests ? dynamicShare(activityAt(at)) : 0.0;
+        now = held(now, old, pow(stays, 1.0 / (1.0 + kDynamicHold * dynamic)),
+                   mix(slack, kDynamicSlack, dynamic));
       }
     } else if (isHeld) {
       now = textureLod(before, at * scale, 0.0);

@@ -1,12 +1,12 @@
 #include "pipeline/tracking/motion/jitter_suppressor.h"
 
 #include <algorithm>
-#include <bitset>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
 #include "pipeline/tracking/image/homography.h"
+#include "pipeline/tracking/motion/feature_places.h"
 
 namespace pleinair::tracking {
 namespace {
@@ -26,30 +26,10 @@ constexpr double kMinErrorPx = 0.005;
 constexpr double kCalibrationPace = 0.15;  // weight of one frame
 constexpr double kMinCalibration = 0.7;
 constexpr double kMaxCalibration = 3.0;
-constexpr int kPlaceColumns = 8;
-constexpr int kPlaceRows = 6;
 
 /// A feature that has moved by less may be at rest.
 double bandOf(const PointPair& pair, double scale) {
   return std::max(kBandPx * scale, kFeatureErrors * pair.errorPx);
-}
-
-constexpr std::size_t kPlaces = std::size_t{kPlaceColumns} * kPlaceRows;
-using Places = std::bitset<kPlaces>;
-
-std::size_t placeOf(const glm::dvec2& px, hal::FrameSize size) {
-  const auto partOf = [](double along, int sidePx, int parts) {
-    return std::clamp(static_cast<int>(parts * along / sidePx), 0, parts - 1);
-  };
-  const int row = partOf(px.y, size.height, kPlaceRows);
-  return static_cast<std::size_t>(kPlaceColumns * row + partOf(px.x, size.width, kPlaceColumns));
-}
-
-/// Precondition: there are some.
-double medianOf(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 bool isAtRest(const PointPair& pair, double scale) {
@@ -60,6 +40,7 @@ bool isAtRest(const PointPair& pair, double scale) {
 
 void JitterSuppressor::reset() {
   reported_.clear();
+  sway_.reset();
   motions_.clear();
   picture_.reset();
   isHeld_ = true;
@@ -122,10 +103,10 @@ void JitterSuppressor::releasePicture(const HomographyFit& fit, hal::FrameSize s
 JitterSuppressor::PlaceCounts JitterSuppressor::countPlaces(const HomographyFit& fit,
                                                             hal::FrameSize size,
                                                             double scale) const {
-  Places seen;
-  Places atRest;
-  Places contradicted;
-  Places hit;
+  FeaturePlaces seen;
+  FeaturePlaces atRest;
+  FeaturePlaces contradicted;
+  FeaturePlaces hit;
   for (const PointPair& pair : pairs_) {
     const std::size_t place = placeOf(pair.current, size);
     const double bandPx = bandOf(pair, scale);
@@ -162,8 +143,8 @@ bool JitterSuppressor::contradictsRest(const PlaceCounts& places) const {
 bool JitterSuppressor::restSpeaksAgainst(const std::optional<HomographyFit>& fit,
                                          hal::FrameSize size, double scale) {
   const std::size_t leastAtRest = fit ? 8 : 4;
-  Places seen;
-  Places atRest;
+  FeaturePlaces seen;
+  FeaturePlaces atRest;
   apart_.clear();
   moved_.clear();
   for (const PointPair& pair : pairs_) {
@@ -207,7 +188,7 @@ void JitterSuppressor::calibrate(const HomographyFit& fit) {
   calibration_ = std::clamp(calibration_, kMinCalibration, kMaxCalibration);
 }
 
-void JitterSuppressor::movePicture(hal::FrameSize size, double scale) {
+void JitterSuppressor::movePicture(hal::FrameSize size, double scale, bool sways) {
   // Motion is measured from the reported positions; while the image is held, from those of held
   // features too.
   pairs_.clear();
@@ -223,8 +204,9 @@ void JitterSuppressor::movePicture(hal::FrameSize size, double scale) {
   isSettling_ = false;
   auto fit = fitter_.fit(pairs_, size);
   const PlaceCounts places = fit ? countPlaces(*fit, size, scale) : PlaceCounts{};
-  const bool stands = isMounted_ ? !isShifted(places)
-                                 : contradictsRest(places) || restSpeaksAgainst(fit, size, scale);
+  const bool stands = isMounted_
+                          ? !isShifted(places)
+                          : sways || contradictsRest(places) || restSpeaksAgainst(fit, size, scale);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     reported_[pairOf_[i]].agrees = stands ? isAtRest(pairs_[i], scale) : fit && fitter_.agrees(i);
   }
@@ -267,7 +249,7 @@ void JitterSuppressor::moveFeature(ReportedFeature& reported, double scale) {
 void JitterSuppressor::update(std::span<const SeenFeature> seen, hal::FrameSize size,
                               double scale) {
   match(seen);
-  movePicture(size, scale);
+  movePicture(size, scale, !isMounted_ && sway_.stands(seen, size, scale));
   motions_.clear();
   for (ReportedFeature& reported : reported_) {
     const glm::dvec2 previous = reported.px;

@@ -10,6 +10,7 @@
 #include "pipeline/tracking/image/homography.h"
 #include "pipeline/tracking/motion/feature_tracker.h"
 #include "pipeline/tracking/motion/image_motion.h"
+#include "pipeline/tracking/motion/sway_detector.h"
 
 namespace pleinair::tracking {
 
@@ -63,13 +64,14 @@ class JitterSuppressor {
   bool restSpeaksAgainst(const std::optional<HomographyFit>& fit, hal::FrameSize size,
                          double scale);
   void calibrate(const HomographyFit& fit);
-  void movePicture(hal::FrameSize size, double scale);
+  void movePicture(hal::FrameSize size, double scale, bool sways);
   void suppressJitter(const HomographyFit& fit, hal::FrameSize size, double scale);
   void releasePicture(const HomographyFit& fit, hal::FrameSize size, double scale);
   void moveFeature(ReportedFeature& reported, double scale);
 
   bool isMounted_;
   HomographyFitter fitter_;
+  SwayDetector sway_;
   std::vector<ReportedFeature> reported_;  // by rising id
   std::vector<ReportedFeature> next_;
   std::vector<PointPair> pairs_;
