@@ -14,8 +14,8 @@ class LayerTextures {
   /// Throws hal::Failure if GPU memory runs out.
   LayerTextures();
 
-  /// MotionLayers::labels(), shares(), background(), activity() and moverMotion(). They belong to `layers`, or
-  /// to this if that is null.
+  /// MotionLayers::labels(), shares(), background(), activity() and moverMotion(). They belong to
+  /// `layers`, or to this if that is null.
   const gpu::Texture& labelsOf(const MotionLayers* layers) const;
   const gpu::Texture& sharesOf(const MotionLayers* layers) const;
   const gpu::Texture& backgroundOf(const MotionLayers* layers) const;

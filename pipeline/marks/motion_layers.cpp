@@ -176,6 +176,7 @@ struct MotionLayers::State {
   hal::TimePoint lastTime;
   float lastStep = 0.0F;  // s; moverMotion is over it
   bool hasPast = false;
+  bool hasActivity = false;  // whether that of the background has been learned
   bool isStanding = false;
   bool hasFront = false;  // whether the last frame had models
   hal::Duration sinceStanding = kStandingHold;
@@ -356,7 +357,8 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
   State& s = *state_;
   assert(frame.full() == s.full);
   // A picture of another quality level differs everywhere.
-  if (motion.isCut() || s.frameSize != frame.size()) s.hasPast = false;
+  if (motion.isCut()) s.hasPast = s.hasActivity = false;
+  if (s.frameSize != frame.size()) s.hasPast = false;
   s.frameSize = frame.size();
   if (!s.hasPast) s.forgetFront();
   const hal::Duration passed =
@@ -400,6 +402,8 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .texture("background", s.backgrounds.at(before))
       .texture("backgroundActivity", s.activities.at(before))
       .set("freshSeconds", kFreshSeconds)
+      .set("hasActivity", s.hasActivity ? 1 : 0)
+      .set("noise", noiseOf(motion))
       .image("labels", s.labels.at(s.now), ImageAccess::kWrite)
       .image("backgroundNow", s.backgrounds.at(s.now), ImageAccess::kWrite)
       .image("activityNow", s.activities.at(s.now), ImageAccess::kWrite)
@@ -440,6 +444,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
   if (!s.hasPast) s.sinceStanding = kStandingHold;
   s.sinceStanding = s.isStanding ? hal::Duration(0) : s.sinceStanding + passed;
   s.hasPast = true;
+  s.hasActivity = true;
 }
 
 const gpu::Texture& MotionLayers::labels() const {
@@ -497,7 +502,7 @@ hal::Image MotionLayers::readMovers() const {
 }
 
 void MotionLayers::reset() {
-  state_->hasPast = false;
+  state_->hasPast = state_->hasActivity = false;
 }
 
 }  // namespace pleinair::marks

@@ -233,7 +233,8 @@ void StrokeSet::State::traceListed(gpu::Program& program, std::size_t groups,
       .set("focalPx", frame.surfaces ? focalOf(*frame.surfaces, frame) : 0.0F)
       .set("layer", glm::vec2(rule.layer, rule.layers));
   if (program.hasUniform("beside")) program.set("beside", rule.besidePx);
-  if (program.hasUniform("backgroundActivity")) program.texture("backgroundActivity", layerTextures.activityOf(layers));
+  if (program.hasUniform("backgroundActivity"))
+    program.texture("backgroundActivity", layerTextures.activityOf(layers));
   if (program.hasUniform("hasSegments")) program.set("hasSegments", borders != nullptr ? 1 : 0);
   rule.focus.bind(program);
   program.dispatchListed(lists, groups, program.groupsFor({static_cast<int>(slots), 1}),

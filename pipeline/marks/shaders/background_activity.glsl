@@ -1,17 +1,22 @@
 // Purpose: how dynamic a place of the background is, as leaves in the wind, water and screens are.
-//          What differs there by no more than it always does is no mover, and changes no strokes
+//          What differs there by little more than it always does is no mover, and changes no strokes
 //          (local thresholds: St-Charles, Bilodeau, Bergevin, "SuBSENSE", 2015).
-// Inputs:  backgroundActivity: R: the running mean of how unlike its mean colour each cell of the background
-//          is (weightedLength()); it is learned before a camera that stands.
+// Inputs:  backgroundActivity: R: the running mean of how unlike its mean colour each cell of the
+//          background is, beyond noise, counted up to kMostUnlike (weightedLength() of sRGB-coded
+//          colours in [0, 1]); 0 where it was never seen. It is learned before a camera that stands,
+//          and fades while the camera moves.
 // Outputs: functions of it.
 // Precision: highp.
 #include "pipeline/marks/shaders/layer_cells.glsl"
 uniform highp sampler2D backgroundActivity;
 
-const float kActivitySeconds = 1.0;       // within which it is learned
+const float kActivitySeconds = 1.0;       // time constant
 const float kMoverActivitySeconds = 3.0;  // – where a mover has been seen to move
-const float kMostUnlike = 0.1;  // counts: what covers a place for a moment tells little of it
-const float kQuiet = 0.01;      // noise alone reads less
+const float kMostShare = 0.1;         // of one frame in the mean, however long it took
+const float kMostUnlike = 0.1;        // what covers a place for a moment tells little of it, …
+const float kMostUnlikeMover = 0.05;  // … and a mover that stays less
+const float kNoiseMean = 1.5;  // sigmas of a cell by which noise alone makes it differ
+const float kQuiet = 0.005;
 const float kActivityDeviations = 2.0;
 
 float activityAt(vec2 px) {
@@ -30,5 +35,5 @@ float dynamicShare(float activity) {
 float slackOf(float activity) { return kActivityDeviations * max(activity - kQuiet, 0.0); }
 
 float activityAfter(float before, float unlike, float stepSeconds, float seconds) {
-  return mix(before, min(unlike, kMostUnlike), min(stepSeconds / seconds, 1.0));
+  return mix(before, unlike, min(1.0 - exp(-stepSeconds / seconds), kMostShare));
 }

@@ -1,7 +1,7 @@
 // Purpose: compares a cell of the picture with the remembered background and with the previous frame
 //          (marks/motion_layers.h).
-// Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's, background_activity.glsl's; picture (ArFrame::camera());
-//          lastPicture, background, labels: the previous frame's, if hasPast; motion: MotionField's
+// Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's, background_activity.glsl's; picture
+//          (ArFrame::camera()); lastPicture, background, labels: the previous frame's, if hasPast; motion: MotionField's
 //          field; noise: sigma of a cell, in [0, 1].
 // Outputs: functions, which store candidates and evidence, as motion_layers.comp's.
 // Precision: highp.
@@ -96,7 +96,7 @@ Compared compared(Seen cell) {
   c.unlike = known.a < 0.5 ? 0.0 : beyond(known.rgb, low, high);
   c.other = smoothstep(least + slack, certain + slack, c.unlike);
   c.other *= 1.0 - shadeOf(cell.now, known.rgb);
-  c.changed = smoothstep(least + slack, certain + slack, beyond(before, low, high));
+  c.changed = smoothstep(least, certain, beyond(before, low, high));
 
   c.moved = textureLod(motion, cell.px / fullSize, 0.0);
   // Measured motion may still be that of most of the image.

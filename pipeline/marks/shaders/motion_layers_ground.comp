@@ -29,18 +29,19 @@ void main() {
   vec4 sum = vec4(0.0);
   Structure structure = noStructure();
   float changed = 0.0;
+  float activity = 0.0;
   for (int y = first.y; y < end.y; y += 2) {
     for (int x = first.x; x < end.x; x += 2) {
       vec4 seen = texelFetch(candidates, ivec2(x, y), 0);
       float change = texelFetch(evidence, ivec2(x, y), 0).r;
       add(structure, seen.ba);
       changed += max(change, 0.0);
+      activity += activityAt((vec2(x, y) + 0.5) * kLayerCellPixels);
       bool isGround = seen.r < 0.15 && seen.g < 0.1 && change >= 0.0;
       if (isGround) sum += vec4(texelFetch(picture, ivec2(x, y), 0).rgb, 1.0);
     }
   }
-  vec2 middle = (vec2(first + end) * 0.5) * kLayerCellPixels;
-  bool isQuiet = dynamicShare(activityAt(middle)) < 1.0;
+  bool isQuiet = dynamicShare(activity / max(structure.count, 1.0)) < 1.0;
   if (isQuiet && hasEdges(structure) && changed > kChanged * structure.count) {
     atomicAdd(changedBlocks[turn], 1u);
     if (isSame(structure)) atomicAdd(keptBlocks[turn], 1u);

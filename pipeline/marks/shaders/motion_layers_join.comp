@@ -307,12 +307,16 @@ void main() {
   }
   float fresh = isMover != wasMover ? 1.0 : max(past.a - stepSeconds / freshSeconds, 0.0);
   imageStore(labels, cell, vec4(isMover ? 1.0 : 0.0, fresh, rest, maturity));
-  // What has been seen to move, and rests now, tells nothing of what is behind it.
+  // A mover that rests tells nothing of what is behind it, nor does what other content surrounds.
   isLasting = maturity > kMatureSeconds;
-  float pace = isLasting ? kMoverActivitySeconds : kActivitySeconds;
-  bool tells = isStanding && known.a >= 0.5 && !(isLasting && rest > 0.0);
+  bool isMute = isLasting ? rest > 0.0 : rest < 0.0;
   float activity = known.a >= 0.5 ? activityAt(from) : 0.0;
-  activity = tells ? activityAfter(activity, apart(now, known.rgb), stepSeconds, pace) : activity;
+  float unlike = isStanding ? max(apart(now, known.rgb) - kNoiseMean * noise, 0.0) : 0.0;
+  unlike = min(unlike, isLasting ? kMostUnlikeMover : kMostUnlike);
+  if (known.a >= 0.5 && !isMute) {
+    activity = activityAfter(activity, unlike, stepSeconds,
+                             isLasting ? kMoverActivitySeconds : kActivitySeconds);
+  }
   imageStore(activityNow, cell, vec4(activity));
   // Beside a mover, some of it may not be labelled.
   bool isBeside = others > 0.08 && hasCause && !isLight;

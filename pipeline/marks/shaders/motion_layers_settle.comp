@@ -3,8 +3,9 @@
 // Defines: motion_layers.glsl's.
 // Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's, busy_blocks.glsl's,
 //          background_activity.glsl's; evidence (motion_layers.comp); picture: this frame's, in
-//          cells; background: the previous frame's, if hasPast; freshSeconds: as
-//          motion_layers_join.comp's.
+//          cells; background: the previous frame's, if hasPast; freshSeconds,
+//          noise: as motion_layers_join.comp's; hasActivity: it was known before, though pictures
+//          have another size now.
 // Outputs: labels, backgroundNow, activityNow: as motion_layers_join.comp's. One invocation per cell.
 // Precision: highp.
 #include "pipeline/marks/shaders/background_mean.glsl"
@@ -20,6 +21,8 @@ uniform highp sampler2D evidence;
 uniform highp sampler2D picture;
 uniform highp sampler2D background;
 uniform bool hasPast;
+uniform bool hasActivity;
+uniform float noise;
 uniform float freshSeconds;
 
 void main() {
@@ -37,7 +40,8 @@ void main() {
   if (!hasPast) {
     imageStore(labels, cell, vec4(0.0));
     imageStore(backgroundNow, cell, vec4(now, 1.0));
-    imageStore(activityNow, cell, vec4(0.0));
+    vec2 here = (vec2(cell) + 0.5) * kLayerCellPixels;
+    imageStore(activityNow, cell, vec4(hasActivity ? activityAt(here) : 0.0));
     return;
   }
   vec4 past = texelFetch(evidence, cell, 0);
@@ -46,8 +50,9 @@ void main() {
   vec4 known = vec4(now, 0.0);
   if (isInPicture(from) && past.r >= 0.0) known = pastAt(background, from);
   float activity = known.a < 0.5 ? 0.0 : activityAt(from);
-  if (isStanding && known.a >= 0.5) {
-    activity = activityAfter(activity, apart(now, known.rgb), stepSeconds, kActivitySeconds);
+  float unlike = isStanding ? max(apart(now, known.rgb) - kNoiseMean * noise, 0.0) : 0.0;
+  if (known.a >= 0.5) {
+    activity = activityAfter(activity, min(unlike, kMostUnlike), stepSeconds, kActivitySeconds);
   }
   imageStore(activityNow, cell, vec4(activity));
   float frames = framesWith(known.a, isStanding ? kFrames : kMovingFrames);

@@ -327,19 +327,19 @@ void main() {
   bool wanted = isWanted(slot, px, seen, isResting, isNew);
   float goal = wanted ? 1.0 : 0.0;
   // The past ends where the stroke stands on clearly other content.
-  float moves = isResting ? 0.0 : smoothstep(flatDetail.x, flatDetail.y, seen);
+  float restless = isResting ? 0.0 : smoothstep(flatDetail.x, flatDetail.y, seen);
   // A surface carries its strokes exactly: what changes is how its field is seen.
   float most = isModel ? kModelHold : 1.0;
-  float hold = mix(min(1.0 / flatHold, most), most, moves);
+  float hold = mix(min(1.0 / flatHold, most), most, restless);
   float stays = isOnMover ? past.x : pow(past.x, hold);
   vec3 change = colour - strokes[slot].colour;
-  vec2 other = otherColour;
+  vec2 otherHere = otherColour;
   float activity = 0.0;
   if (!isModel && isResting) {
     activity = activityAlong(px, heading);
-    other += slackOf(activity);
+    otherHere += slackOf(activity);
   }
-  float changed = isNew ? 0.0 : smoothstep(other.x, other.y, weightedLength(change));
+  float changed = isNew ? 0.0 : smoothstep(otherHere.x, otherHere.y, weightedLength(change));
   uint now = label | (wanted ? kWanted : 0u) | (isModel ? 0u : strokes[slot].state & kAccent);
   if (isModel && !isNew) now = withGirth(now, mix(1.0, girthOf(strokes[slot].state), past.x));
   strokes[slot].state = now;

@@ -46,8 +46,8 @@ const float kLeastSeen = 0.35;  // of a region: less of the background says noth
 const float kLeastSurface = 0.5;  // of a region: planes and real things that fill less say nothing
 const float kKnownPx = 4.0;  // of error: a motion that is less certain carries no past
 
-// Where the background is dynamic: the past remains so many times longer, and the slack.
-const float kDynamicHold = 9.0;
+// Where the background is dynamic: how many times longer its past remains, and the slack.
+const float kDynamicHold = 10.0;
 const float kDynamicSlack = 0.5;
 
 const float kReach = 6.0;  // px: half a region, and the width of an edge
@@ -201,6 +201,7 @@ void main() {
     float angle = isNear ? 0.0 : turn;
     Source source = Source(behind, mat2(cos(angle), sin(angle), -sin(angle), cos(angle)),
                        isNear ? isInPicture(behind) : isKnown);
+    if (rests) source = Source(at, mat2(1.0), true);
     if (surface.pixels > kLeastSurface * extent.x * extent.y) {
       Source onSurface = sourceOf(surface, at);
       if (isSurer(onSurface.from - at, surface.error / surface.pixels, moved, at, isNear)) {
@@ -208,7 +209,6 @@ void main() {
         source.isKnown = isInPicture(source.from);
       }
     }
-    if (rests) source = Source(at, mat2(1.0), true);
     if (source.isKnown) {
       vec4 old = textureLod(before, source.from * scale, 0.0);
       old.xy = carriedBy(old.xy, source.jacobian);
@@ -216,8 +216,8 @@ void main() {
         now = old;
       } else if (old.w > 0.0) {
         float dynamic = rests ? dynamicShare(activityAt(at)) : 0.0;
-        now = held(now, old, pow(stays, 1.0 / (1.0 + kDynamicHold * dynamic)),
-                   mix(slack, kDynamicSlack, dynamic));
+        float allowed = slack > 0.0 ? max(slack, mix(slack, kDynamicSlack, dynamic)) : 0.0;
+        now = held(now, old, pow(stays, 1.0 / mix(1.0, kDynamicHold, dynamic)), allowed);
       }
     } else if (isHeld) {
       now = textureLod(before, at * scale, 0.0);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bitset>
 #include <cstddef>
-#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -25,13 +24,6 @@ inline std::size_t placeOf(const glm::dvec2& px, hal::FrameSize size) {
   };
   const int row = partOf(px.y, size.height, kPlaceRows);
   return static_cast<std::size_t>(kPlaceColumns * row + partOf(px.x, size.width, kPlaceColumns));
-}
-
-/// Reorders the values. Precondition: there are some.
-inline double medianOf(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace pleinair::tracking

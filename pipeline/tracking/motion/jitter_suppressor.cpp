@@ -7,6 +7,7 @@
 
 #include "pipeline/tracking/image/homography.h"
 #include "pipeline/tracking/motion/feature_places.h"
+#include "pipeline/tracking/motion/median.h"
 
 namespace pleinair::tracking {
 namespace {
@@ -188,7 +189,7 @@ void JitterSuppressor::calibrate(const HomographyFit& fit) {
   calibration_ = std::clamp(calibration_, kMinCalibration, kMaxCalibration);
 }
 
-void JitterSuppressor::movePicture(hal::FrameSize size, double scale, bool sways) {
+void JitterSuppressor::movePicture(hal::FrameSize size, double scale, bool standsBeforeSway) {
   // Motion is measured from the reported positions; while the image is held, from those of held
   // features too.
   pairs_.clear();
@@ -204,9 +205,9 @@ void JitterSuppressor::movePicture(hal::FrameSize size, double scale, bool sways
   isSettling_ = false;
   auto fit = fitter_.fit(pairs_, size);
   const PlaceCounts places = fit ? countPlaces(*fit, size, scale) : PlaceCounts{};
-  const bool stands = isMounted_
-                          ? !isShifted(places)
-                          : sways || contradictsRest(places) || restSpeaksAgainst(fit, size, scale);
+  const bool stands = isMounted_ ? !isShifted(places)
+                                 : standsBeforeSway || contradictsRest(places) ||
+                                       restSpeaksAgainst(fit, size, scale);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     reported_[pairOf_[i]].agrees = stands ? isAtRest(pairs_[i], scale) : fit && fitter_.agrees(i);
   }

@@ -64,7 +64,7 @@ class JitterSuppressor {
   bool restSpeaksAgainst(const std::optional<HomographyFit>& fit, hal::FrameSize size,
                          double scale);
   void calibrate(const HomographyFit& fit);
-  void movePicture(hal::FrameSize size, double scale, bool sways);
+  void movePicture(hal::FrameSize size, double scale, bool standsBeforeSway);
   void suppressJitter(const HomographyFit& fit, hal::FrameSize size, double scale);
   void releasePicture(const HomographyFit& fit, hal::FrameSize size, double scale);
   void moveFeature(ReportedFeature& reported, double scale);

@@ -1,14 +1,17 @@
 // Leaves in the wind, before a camera that stands: they are no movers, but who passes before them
 // is one; and the strokes on them keep their lengths.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
+#include "tests/gpu/marks/motion_layers_fixture.h"
 #include "tests/gpu/marks/stroke_fixture.h"
 
 namespace pleinair::marks {
@@ -37,7 +40,7 @@ class DynamicBackground : public StrokeTest {
 
   static glm::dvec2 discAt(int frame) { return {-40.0 + 6.0 * frame, 64.0}; }
 
-  /// Leaves, and a dark disc that passes from `withDisc` on, as many frames after it began.
+  /// Leaves, and a darker disc that passes from `withDisc` on, as many frames after it began.
   void see(int withDisc = -1) {
     const double seconds = kStepSeconds * seen_;
     advance(greyPicture(
@@ -45,7 +48,7 @@ class DynamicBackground : public StrokeTest {
                 [&](glm::dvec2 px) {
                   const bool isDisc =
                       withDisc >= 0 && glm::distance(px, discAt(withDisc)) < kRadius;
-                  return isDisc ? 0.05 : leaves(px, seconds);
+                  return isDisc ? 0.3 : leaves(px, seconds);
                 },
                 2.0, static_cast<unsigned>(seen_)),
             rule_);
@@ -91,7 +94,7 @@ TEST_F(DynamicBackground, LeavesAreNoMoversOnceTheyAreKnownToSway) {
     see();
     later += labelled(kEverywhere) / 30.0;
   }
-  EXPECT_LT(later, 0.01);
+  EXPECT_LT(later, 0.04) << "0.09 without";
 }
 
 TEST_F(DynamicBackground, WhoPassesBeforeThemIsAMover) {
@@ -103,8 +106,38 @@ TEST_F(DynamicBackground, WhoPassesBeforeThemIsAMover) {
     const auto isDisc = [&](glm::dvec2 px) { return glm::distance(px, disc) < kRadius - 2.0; };
     EXPECT_GT(labelled(isDisc), 0.9) << i;
     const auto isFar = [&](glm::dvec2 px) { return std::abs(px.x - disc.x) > kRadius + 40.0; };
-    EXPECT_LT(labelled(isFar), 0.02) << i;
+    EXPECT_LT(labelled(isFar), 0.04) << i;
   }
+}
+
+/// Somebody of a colour not far from the wall's, who stands before it and moves in place, is no
+/// leaf.
+TEST_F(MotionLayersTest, WhoMovesInPlaceStaysAMover) {
+  const auto image = [](const View& view, unsigned seed) {
+    hal::Image picture = seen({}, kSize, seed);
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) {
+        if (glm::distance(glm::dvec2(x, y), view.disc) >= view.radius) continue;
+        auto* p = picture.row(0, y).data() + std::ptrdiff_t{4} * x;
+        // Some of the wall's places look alike.
+        constexpr std::array<std::uint8_t, 3> kColour{165, 110, 90};
+        std::ranges::copy(kColour, p);
+      }
+    }
+    return picture;
+  };
+  const auto placeAt = [](int frame) {
+    return glm::dvec2(160.0 + 24.0 * std::sin(0.15 * frame), 120.0);
+  };
+  for (unsigned i = 0; i < 6; ++i) seeImage(image({}, i));
+  double least = 1.0;
+  for (int i = 0; i < 240; ++i) {
+    const View view{.disc = placeAt(i), .radius = 35.0};
+    seeDiscMoved(image(view, 10 + static_cast<unsigned>(i)), view, placeAt(i) - placeAt(i - 1),
+                 Texture::kWhole);
+    if (i > 180) least = std::min(least, overlapWith(view).iou());
+  }
+  EXPECT_GT(least, 0.75);
 }
 
 TEST_F(DynamicBackground, StrokesKeepTheirLengthsThere) {
@@ -127,10 +160,13 @@ TEST_F(DynamicBackground, StrokesKeepTheirLengthsThere) {
         count += 1.0;
       }
     }
+    EXPECT_GT(count, 100.0 * frames);
     return sum / std::max(count, 1.0);
   };
+  for (int i = 0; i < 3; ++i) see();
+  EXPECT_GT(changesIn(4), 0.02) << "the control: before it is known, ends follow the leaves";
   for (int i = 0; i < 90; ++i) see();
-  EXPECT_LT(changesIn(8), 0.005) << "segments; 0.07 if ends of strokes follow the leaves";
+  EXPECT_LT(changesIn(8), 0.005) << "segments";
 }
 
 }  // namespace

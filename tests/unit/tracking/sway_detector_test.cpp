@@ -1,6 +1,9 @@
 #include "pipeline/tracking/motion/sway_detector.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <numbers>
 #include <random>
@@ -13,33 +16,41 @@ namespace pleinair::tracking {
 namespace {
 
 constexpr hal::FrameSize kSize{320, 240};
-constexpr double kFramesPerSecond = 15.0;
+/// How a feature has moved from its place: by a number of its own, in [0, 1], and the time.
+using Motion = std::function<glm::dvec2(glm::dvec2 px, double own, double seconds)>;
 
-/// How many of the last 40 of 60 frames are taken for those of a camera that stands. Features lie
-/// on a grid; `movedBy` gives what they have moved by, of their place, a number of their own, and
-/// the time in s.
-int standingFrames(
-    const std::function<glm::dvec2(glm::dvec2 px, double own, double seconds)>& movedBy,
-    double noisePx = 0.03) {
-  constexpr int kFrames = 60;
-  constexpr int kFirst = 20;
+struct Film {
+  double noisePx = 0.03;
+  double framesPerSecond = 15.0;
+  int frames = 90;
+};
+
+constexpr int kJudged = 60;  // frames
+
+/// How many of the last kJudged frames are taken for those of a camera that stands. Features lie on
+/// a grid.
+int standingFrames(const Motion& motion, const Film& film = {}) {
   std::mt19937 random(5);
-  std::normal_distribution<double> noise(0.0, noisePx);
+  std::normal_distribution<double> noise(0.0, film.noisePx);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  std::vector<double> own(16 * 12);
+  std::vector<double> own(std::size_t{16} * 12);
   for (double& each : own) each = unit(random);
   SwayDetector detector;
   int standing = 0;
-  for (int frame = 0; frame < kFrames; ++frame) {
+  for (int frame = 0; frame < film.frames; ++frame) {
     std::vector<SeenFeature> seen;
     for (std::size_t i = 0; i < own.size(); ++i) {
       const glm::dvec2 place(20.0 * static_cast<double>(i % 16) + 10.0,
                              20.0 * static_cast<double>(i / 16) + 10.0);
-      const glm::dvec2 px = place + movedBy(place, own[i], frame / kFramesPerSecond) +
+      const glm::dvec2 px = place + motion(place, own[i], frame / film.framesPerSecond) +
                             glm::dvec2(noise(random), noise(random));
-      seen.push_back({.id = static_cast<std::uint32_t>(i), .px = px, .wasSeen = frame > 0});
+      seen.push_back({.id = static_cast<std::uint32_t>(i),
+                      .px = px,
+                      .errorPx = 1.5 * film.noisePx,
+                      .wasSeen = frame > 0});
     }
-    standing += detector.stands(seen, kSize, 1.0) && frame >= kFirst ? 1 : 0;
+    const bool stands = detector.stands(seen, kSize, 1.0);
+    standing += stands && frame >= film.frames - kJudged ? 1 : 0;
   }
   return standing;
 }
@@ -50,25 +61,31 @@ glm::dvec2 swayed(double own, double seconds) {
 }
 
 TEST(SwayDetector, ACameraStandsBeforeLeaves) {
-  EXPECT_EQ(standingFrames([](glm::dvec2, double own, double t) { return swayed(own, t); }), 40);
+  const auto leaves = [](glm::dvec2, double own, double t) { return swayed(own, t); };
+  EXPECT_EQ(standingFrames(leaves), kJudged);
+  EXPECT_EQ(standingFrames(leaves, {.framesPerSecond = 30.0}), kJudged);
+  // It takes longer to see that they come back.
+  EXPECT_EQ(standingFrames(leaves, {.framesPerSecond = 60.0, .frames = 300}), kJudged);
 }
 
-/// All leaves go with the wind at first, and a part of them scatters.
+/// All leaves go with the wind, and scatter besides.
 TEST(SwayDetector, AlsoWhereTheWindBendsThemAll) {
-  EXPECT_EQ(standingFrames([](glm::dvec2, double own, double t) {
-              return swayed(own, t) + glm::dvec2(0.2 * std::sin(2.0 * t), 0.0);
-            }),
-            40);
+  const auto bent = [](glm::dvec2, double own, double t) {
+    return swayed(own, t) + glm::dvec2(0.2 * std::sin(2.0 * t), 0.0);
+  };
+  EXPECT_EQ(standingFrames(bent), kJudged);
 }
 
 TEST(SwayDetector, ACameraThatMovesDoesNotStand) {
-  const auto panned = [](double pxPerFrame) {
-    return [pxPerFrame](glm::dvec2, double, double t) {
-      return glm::dvec2(pxPerFrame * kFramesPerSecond * t, 0.0);
-    };
-  };
-  for (const double step : {0.02, 0.1, 1.5, -8.0})
-    EXPECT_EQ(standingFrames(panned(step)), 0) << step;
+  for (const double noise : {0.03, 0.1, 0.15}) {
+    for (const double step : {0.005, 0.01, 0.02, 0.1, 1.5, -8.0}) {
+      const auto panned = [step](glm::dvec2, double, double t) {
+        return glm::dvec2(step * 15.0 * t, 0.0);
+      };
+      EXPECT_EQ(standingFrames(panned, {.noisePx = noise, .frames = 300}), 0)
+          << step << " px a frame, noise of " << noise;
+    }
+  }
   const auto zoomed = [](glm::dvec2 px, double, double t) {
     return 0.03 * t * (px - glm::dvec2(160.0, 120.0));
   };
@@ -80,18 +97,29 @@ TEST(SwayDetector, ACameraThatMovesDoesNotStand) {
 }
 
 TEST(SwayDetector, NorOneThatMovesBeforeLeaves) {
-  EXPECT_EQ(standingFrames([](glm::dvec2, double own, double t) {
-              return 0.5 * swayed(own, t) + glm::dvec2(0.4 * kFramesPerSecond * t, 0.0);
-            }),
-            0);
+  const auto moved = [](glm::dvec2, double own, double t) {
+    return 0.5 * swayed(own, t) + glm::dvec2(6.0 * t, 0.0);
+  };
+  EXPECT_EQ(standingFrames(moved), 0);
 }
 
-/// Near and far things that a camera passes are no leaves: they scatter by more and more.
+/// A camera that goes around a thing moves what is near and what is far in opposite ways: no
+/// similarity takes them along.
 TEST(SwayDetector, NorOneThatPassesNearAndFarThings) {
-  EXPECT_EQ(standingFrames([](glm::dvec2, double own, double t) {
-              return glm::dvec2((own - 0.5) * 2.0 * kFramesPerSecond * t, 0.0);
-            }),
-            0);
+  for (const double step : {0.025, 0.05, 0.1, 0.15, 1.0}) {
+    const auto parallax = [step](glm::dvec2, double own, double t) {
+      return glm::dvec2((own - 0.5) * 2.0 * step * 15.0 * t, 0.0);
+    };
+    EXPECT_EQ(standingFrames(parallax, {.frames = 300}), 0) << step;
+  }
+}
+
+/// A camera that is picked up after it has stood.
+TEST(SwayDetector, NorOneThatStoodAndMovesNow) {
+  const auto moved = [](glm::dvec2, double own, double t) {
+    return swayed(own, t) + glm::dvec2(std::max(0.0, t - 5.0) * 9.0, 0.0);
+  };
+  EXPECT_LE(standingFrames(moved, {.frames = 140}), 4) << "it begins at frame 75";
 }
 
 TEST(SwayDetector, FewFeaturesSayNothing) {
