@@ -116,8 +116,9 @@ struct ArFrameNeeds {
 };
 
 /// The input of a style: the camera image with the virtual objects composed over it, and data about
-/// each pixel. All textures have the size of `colour`, row 0 at the top; they are valid until the
-/// next frame is composed.
+/// each pixel. All textures have the size of `colour`, row 0 at the top, but that `ids`,
+/// `normalFocus` and `depth` are a single texel in scenes without models and planes; they are valid
+/// until the next frame is composed.
 struct ArFrame {
   const gpu::Texture* colour = nullptr;  ///< RGBA8, sRGB-coded, LINEAR filter
   /// The same without models and their shadows. Null: `colour` shows none.

@@ -88,8 +88,10 @@ void ArFrameRenderer::makePrograms(const gpu::ShaderLibrary& library) {
   white_.upload(std::array<std::uint8_t, 4>{255, 255, 255, 255}, 4);
 }
 
-ArFrameRenderer::Surfaces::Surfaces(hal::FrameSize size, bool hasModels)
-    : ids(gpu::TextureFormat::kR32ui, size),
+/// Without models and planes, all texels would be the same.
+ArFrameRenderer::Surfaces::Surfaces(hal::FrameSize pictureSize, bool hasModels, bool hasPlanes)
+    : size(hasModels || hasPlanes ? pictureSize : hal::FrameSize{1, 1}),
+      ids(gpu::TextureFormat::kR32ui, size),
       normalFocus(gpu::TextureFormat::kRgba8, size),
       depth(gpu::TextureFormat::kDepth24, size),
       withoutColour({&ids, &normalFocus}, &depth) {
@@ -99,7 +101,7 @@ ArFrameRenderer::Surfaces::Surfaces(hal::FrameSize size, bool hasModels)
 }
 
 void ArFrameRenderer::takeSurfaces(hal::FrameSize size) {
-  surfacesNow_ = &surfaces_.of(size, size, !scene_.models.empty());
+  surfacesNow_ = &surfaces_.of(size, size, !scene_.models.empty(), !scene_.planes.empty());
 }
 
 /// Runs everything once that a frame may need: poses in front of the camera, draws, and reads.
@@ -187,7 +189,7 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
 
 SurfaceSnapshot ArFrameRenderer::snapshot() {
   if (visible_.empty() || frame_.barycentrics == nullptr) {
-    return SurfaceSnapshot(frame_.ids->size());
+    return SurfaceSnapshot(frame_.colour->size());
   }
   return reader_.read(geometry_, bodies_, visible_, objects_, *camera_, *frame_.ids,
                       *frame_.barycentrics);

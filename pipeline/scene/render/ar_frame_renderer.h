@@ -71,8 +71,9 @@ class ArFrameRenderer {
  private:
   /// Render targets for frames of one size.
   struct Surfaces {
-    Surfaces(hal::FrameSize size, bool hasModels);
+    Surfaces(hal::FrameSize pictureSize, bool hasModels, bool hasPlanes);
 
+    hal::FrameSize size;
     gpu::Texture ids;
     gpu::Texture normalFocus;
     gpu::Texture depth;

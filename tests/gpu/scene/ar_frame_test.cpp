@@ -147,6 +147,20 @@ TEST_F(ArFrameTest, NeedsNoModels) {
   EXPECT_EQ(frame.normalFocus->size(), (hal::FrameSize{1, 1}));
 }
 
+/// Three textures of the picture's size would take 12 bytes a pixel.
+TEST_F(ArFrameTest, WithoutModelsItsSurfacesAreASingleTexel) {
+  ArFrameRenderer renderer(library_, Scene{});
+  const gpu::Texture picture = plainPicture(kSize);
+  const ArFrame& frame = compose(renderer, picture, plainCamera(), {});
+  constexpr hal::FrameSize kTexel{1, 1};
+  EXPECT_EQ(frame.colour->size(), kSize);
+  EXPECT_EQ(frame.ids->size(), kTexel);
+  EXPECT_EQ(frame.depth->size(), kTexel);
+  EXPECT_EQ(frame.normalFocus->size(), kTexel);
+  EXPECT_THAT(readR32ui(*frame.ids), testing::Each(0u));
+  EXPECT_EQ(renderer.snapshot().size(), kSize);
+}
+
 TEST_F(ArFrameTest, DrawsModelsOntoASinglePixel) {
   ArFrameRenderer renderer(library_, signPost(std::nullopt));
   const gpu::Texture picture = plainPicture({1, 1});

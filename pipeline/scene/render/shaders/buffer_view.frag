@@ -1,5 +1,5 @@
 // Purpose: pictures of an AR frame's buffers, for people to look at.
-// Inputs:  the buffers (scene/render/ar_frame.h; a single texel of 0 for a missing one); view, as
+// Inputs:  the buffers (scene/render/ar_frame.h; a single texel for a missing one); view, as
 //          scene::bufferViews() numbers them; depthRange: the near and the far plane in metres.
 // Outputs: colour RGBA8, sRGB-coded.
 // Precision: highp for ids and depth.
@@ -59,16 +59,17 @@ vec3 directionColour(uint form) {
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  uint id = texelFetch(ids, pixel, 0).r;
+  ivec2 surface = min(pixel, textureSize(ids, 0) - 1);
+  uint id = texelFetch(ids, surface, 0).r;
   uint part = texelFetch(parts, min(pixel, textureSize(parts, 0) - 1), 0).r;
   uint corners = texelFetch(barycentrics, min(pixel, textureSize(barycentrics, 0) - 1), 0).r;
   uint form = texelFetch(forms, min(pixel, textureSize(forms, 0) - 1), 0).r;
   vec4 moved = texelFetch(motion, min(pixel, textureSize(motion, 0) - 1), 0);
-  vec4 facing = texelFetch(normalFocus, pixel, 0);
+  vec4 facing = texelFetch(normalFocus, surface, 0);
   vec2 at = unpackUnorm2x16(corners);
   vec3 c = vec3(0.0);
   bool isObject = objectOf(id) != 0u;
-  if (view == 0 && isObject) c = vec3(nearness(texelFetch(depth, pixel, 0).r));
+  if (view == 0 && isObject) c = vec3(nearness(texelFetch(depth, surface, 0).r));
   if (view == 1 && isObject) c = colourOf(objectOf(id));
   if (view == 2 && isObject) c = colourOf(numberOf(part) + 7u * objectOf(part));
   if (view == 3 && isObject) c = colourOf(numberOf(id) + 7u * objectOf(id));
