@@ -30,9 +30,9 @@ struct MotionLayersOptions {
 /// at its last place. Changes of light that leave edges where they are make no mover, nor does a
 /// change of more than half of the image, or of less if most edges in it stay. What a mover
 /// uncovers for the first time is background as soon as it rests, if the camera stands and it is
-/// like its surroundings, else like any other mover. What differs from a background that differs
-/// from its mean all the time, as leaves in the wind do, must do so by twice as much more. What has
-/// changed once and then rests, without a mover beside it, is background after 0.7 s. (Background
+/// like its surroundings, else like any other mover. Where the background itself always differs
+/// from its mean, as leaves in the wind do, a mover must differ by twice that more. What has changed
+/// once and then rests, without a mover beside it, is background after 0.7 s. (Background
 /// subtraction with a running mean: Piccardi, "Background subtraction techniques: a review", 2004.)
 ///
 /// A mover's plain parts, and those along an edge, go with the others; so do parts all around which

@@ -16,8 +16,8 @@ const float kMostShare = 0.1;         // of one frame in the mean, however long 
 const float kMostUnlike = 0.1;        // what covers a place for a moment tells little of it, …
 const float kMostUnlikeMover = 0.05;  // … and a mover that stays less
 const float kNoiseMean = 1.5;  // sigmas of a cell by which noise alone makes it differ
-const float kQuiet = 0.005;
-const float kActivityDeviations = 2.0;
+const float kQuiet = 0.005;  // an activity that changes nothing
+const float kActivityDeviations = 2.0;  // of it, a mover must differ by so much more
 
 float activityAt(vec2 px) {
   ivec2 last = textureSize(backgroundActivity, 0) - 1;

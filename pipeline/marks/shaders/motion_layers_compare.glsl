@@ -1,8 +1,8 @@
 // Purpose: compares a cell of the picture with the remembered background and with the previous frame
 //          (marks/motion_layers.h).
 // Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's, background_activity.glsl's; picture
-//          (ArFrame::camera()); lastPicture, background, labels: the previous frame's, if hasPast; motion: MotionField's
-//          field; noise: sigma of a cell, in [0, 1].
+//          (ArFrame::camera()); lastPicture, background, labels: the previous frame's, if hasPast;
+//          motion: MotionField's field; noise: sigma of a cell, in [0, 1].
 // Outputs: functions, which store candidates and evidence, as motion_layers.comp's.
 // Precision: highp.
 #include "pipeline/gpu/shaders/luma.glsl"

@@ -50,9 +50,9 @@ class SwayDetector {
   Places latest_;      // the next middle
   int frames_ = 0;     // since the reference
   int together_ = 0;   // consecutive frames in which a similarity takes features along
-  int scattered_ = 0;  // consecutive frames
+  int scattered_ = 0;  // consecutive frames in which they scatter
   int trusted_ = 0;    // frames in which an earlier reference's word still holds
-  // Of features that the reference has, too.
+  // These hold the features that the reference has, too.
   std::vector<glm::dvec2> from_;
   std::vector<glm::dvec2> between_;  // in the middle; those that it has
   std::vector<glm::dvec2> to_;

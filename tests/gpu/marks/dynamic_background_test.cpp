@@ -55,7 +55,7 @@ class DynamicBackground : public StrokeTest {
     ++seen_;
   }
 
-  /// Of the cells that `isIn` tells, the share that is labelled.
+  /// The share of the cells that `isIn` tells which is labelled.
   template <typename Test>
   double labelled(const Test& isIn) const {
     const std::vector<float> labels = support::readRgba32f(layers_->labels());

@@ -62,7 +62,7 @@ TEST(AravisDataRate, LosesNothingOfHdAtThirtyFramesASecond) {
   }
   for (const bool packetSocket : {true, false}) {
     std::uint64_t lost = 1;
-    // What else runs on the machine may starve sender and receiver alike.
+    // Other programs of the machine may starve sender and receiver alike.
     for (int attempt = 0; attempt < 3 && lost > 0; ++attempt) lost = lostOfHd(packetSocket);
     EXPECT_EQ(lost, 0u) << packetSocket;
   }
