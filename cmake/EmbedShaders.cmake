@@ -5,7 +5,7 @@ list(LENGTH INPUTS count)
 
 set(declaration "std::span<const EmbeddedShader> ${LISTER}();\n")
 set(header "// Made from shader files at build; edit those.\n#pragma once\n\n#include <span>\n\n")
-string(APPEND header "#include \"pipeline/gpu/embedded_shader.h\"\n\n")
+string(APPEND header "#include \"pipeline/gpu/programs/embedded_shader.h\"\n\n")
 string(APPEND header "namespace pleinair::gpu {\n\n${declaration}\n}  // namespace pleinair::gpu\n")
 file(WRITE "${OUTPUT}.h" "${header}")
 

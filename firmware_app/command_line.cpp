@@ -29,7 +29,7 @@
 #include "firmware_app/service_manager/journal_stream.h"
 #include "firmware_app/subcommand_options.h"
 #include "firmware_app/version.h"
-#include "pipeline/gpu/shared_displays.h"
+#include "pipeline/gpu/context/shared_displays.h"
 
 namespace pleinair::app {
 

@@ -1,7 +1,7 @@
 #include <malloc.h>
 
 #include "firmware_app/command_line.h"
-#include "pipeline/gpu/import_trial.h"
+#include "pipeline/gpu/frames/import_trial.h"
 
 int main(int argc, char** argv) {
   // A thread that finds all heaps in use makes one more, up to eight a processor, and each keeps

@@ -56,8 +56,8 @@ class [[nodiscard]] Answer {
   bool hasError() const { return !answer_.has_value(); }
   /// Precondition: hasError().
   const Error& error() const { return answer_.error(); }
-  /// Precondition: !hasError().
-  bool isYes() const { return *answer_; }
+  /// False also where there is an error.
+  bool isYes() const { return answer_.value_or(false); }
 
  private:
   Result<bool> answer_;

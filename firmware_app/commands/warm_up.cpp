@@ -14,7 +14,7 @@
 #include "firmware_app/scene/workbench_scene.h"
 #include "hal/cameras/synthetic/synthetic_camera.h"
 #include "pipeline/engine/painter.h"
-#include "pipeline/gpu/shared_displays.h"
+#include "pipeline/gpu/context/shared_displays.h"
 #include "pipeline/scene/description/scene_file.h"
 #include "pipeline/styles/registry.h"
 

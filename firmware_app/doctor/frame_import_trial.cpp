@@ -8,11 +8,11 @@
 #include "hal/error.h"
 #include "hal/frame_memory/allocators.h"
 #include "hal/frame_memory/shared_frame.h"
-#include "pipeline/gpu/camera_frames.h"
-#include "pipeline/gpu/egl_context.h"
-#include "pipeline/gpu/imported_texture.h"
-#include "pipeline/gpu/shader_library.h"
-#include "pipeline/gpu/shared_displays.h"
+#include "pipeline/gpu/context/egl_context.h"
+#include "pipeline/gpu/context/shared_displays.h"
+#include "pipeline/gpu/frames/camera_frames.h"
+#include "pipeline/gpu/frames/imported_texture.h"
+#include "pipeline/gpu/programs/shader_library.h"
 
 namespace pleinair::app::doctor {
 namespace {

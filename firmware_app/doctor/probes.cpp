@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "hal/outputs/display/display_output.h"
-#include "pipeline/gpu/shared_displays.h"
+#include "pipeline/gpu/context/shared_displays.h"
 
 namespace pleinair::app::doctor {
 namespace {

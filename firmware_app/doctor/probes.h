@@ -14,7 +14,7 @@
 #include "hal/output_kind.h"
 #include "hal/outputs/display/display_output.h"
 #include "hal/outputs/v4l2_loopback/loopback_devices.h"
-#include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/context/egl_context.h"
 
 namespace pleinair::app::doctor {
 

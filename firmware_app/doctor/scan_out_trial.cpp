@@ -9,10 +9,10 @@
 #include "hal/error.h"
 #include "hal/outputs/display/trial_surface.h"
 #include "hal/surface_pattern.h"
-#include "pipeline/gpu/egl_context.h"
-#include "pipeline/gpu/import_trial.h"
-#include "pipeline/gpu/imported_texture.h"
-#include "pipeline/gpu/shared_displays.h"
+#include "pipeline/gpu/context/egl_context.h"
+#include "pipeline/gpu/context/shared_displays.h"
+#include "pipeline/gpu/frames/import_trial.h"
+#include "pipeline/gpu/frames/imported_texture.h"
 
 namespace pleinair::app::doctor {
 namespace {

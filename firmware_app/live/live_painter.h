@@ -9,8 +9,8 @@
 
 #include "firmware_app/live/live_controls.h"
 #include "pipeline/engine/painter.h"
-#include "pipeline/gpu/import_trial.h"
-#include "pipeline/runtime/frame_painter.h"
+#include "pipeline/gpu/frames/import_trial.h"
+#include "pipeline/runtime/paint/frame_painter.h"
 
 namespace pleinair::app {
 

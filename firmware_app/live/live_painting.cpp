@@ -41,7 +41,7 @@
 #include "pipeline/engine/painter.h"
 #include "pipeline/runtime/live_pipeline.h"
 #include "pipeline/runtime/live_threads.h"
-#include "pipeline/runtime/status_text.h"
+#include "pipeline/runtime/status/status_text.h"
 
 namespace pleinair::app {
 namespace {

@@ -8,9 +8,9 @@
 #include "firmware_app/config/configuration.h"
 #include "hal/camera.h"
 #include "hal/outputs/registry.h"
-#include "pipeline/runtime/heat_guard.h"
-#include "pipeline/runtime/output_stage.h"
-#include "pipeline/runtime/paint_stage.h"
+#include "pipeline/runtime/control/heat_guard.h"
+#include "pipeline/runtime/output/output_stage.h"
+#include "pipeline/runtime/paint/paint_stage.h"
 
 namespace pleinair::app {
 

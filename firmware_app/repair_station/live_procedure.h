@@ -20,7 +20,7 @@
 #include "pipeline/procedure/notices.h"
 #include "pipeline/procedure/step_command.h"
 #include "pipeline/procedure/stepper.h"
-#include "pipeline/runtime/procedure_status.h"
+#include "pipeline/runtime/status/procedure_status.h"
 
 namespace pleinair::app {
 

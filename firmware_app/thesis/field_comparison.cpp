@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "pipeline/gpu/render_target.h"
-#include "pipeline/marks/tensor_field.h"
+#include "pipeline/marks/tensors/tensor_field.h"
 #include "pipeline/measure/baselines/edge_tensors.h"
 
 namespace pleinair::app {

@@ -16,7 +16,7 @@
 #include "firmware_app/thesis/thesis_drawing.h"
 #include "firmware_app/thesis/thesis_figures.h"
 #include "hal/error.h"
-#include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/context/egl_context.h"
 #include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/measure/baselines/area_sampling.h"

@@ -16,10 +16,10 @@
 #include "firmware_app/thesis/thesis_figures.h"
 #include "hal/cameras/synthetic/synthetic_camera.h"
 #include "hal/error.h"
-#include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/context/egl_context.h"
 #include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/marks/marks_shaders.h"
-#include "pipeline/marks/tensor_field.h"
+#include "pipeline/marks/tensors/tensor_field.h"
 #include "pipeline/measure/baselines/straight_strokes.h"
 #include "pipeline/measure/image_measures.h"
 #include "pipeline/measure/input/picture.h"
@@ -314,7 +314,8 @@ ThesisFigure fieldFigure(ThesisBench& bench) {
       {"global_ms", "eq. 12 at the middle of each region, one core", found.globalMs, "ms"}};
   figure.measured = fmt::format(
       "Regions of 8×8 px, σ = {} px; {} edge pixels above a third of the strongest or {}, of "
-      "gradients of colours. Both fields are of the same frame; the angle is that between their lines. Our "
+      "gradients of colours. Both fields are of the same frame; the angle is that between their "
+      "lines. Our "
       "field interpolates within 5×5 regions on each level, so it is local: where it differs, "
       "eq. 12 averages edges from further away.",
       kSigmaPx, found.edgePixels, marks::kMaxLeading);

@@ -23,11 +23,11 @@ bool beginsWithOneOf(std::string_view pass, std::initializer_list<std::string_vi
 }
 
 ThesisStage stageOf(const std::string& pass) {
-  if (beginsWithOneOf(pass, {"marks: gradient", "marks: edge_", "marks: tensor_"})) {
+  if (beginsWithOneOf(pass, {"tensors: gradient", "tensors: edge_", "tensors: tensor_"})) {
     return ThesisStage::kTensorField;
   }
   if (pass == "follow picture") return ThesisStage::kFeatures;
-  if (beginsWithOneOf(pass, {"marks: feature_layers", "marks: motion_field", "marks: anchor_"})) {
+  if (beginsWithOneOf(pass, {"marks: feature_layers", "marks: motion_field", "anchors: anchor_"})) {
     return ThesisStage::kWarping;
   }
   return ThesisStage::kPainting;

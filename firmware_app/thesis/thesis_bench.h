@@ -14,7 +14,7 @@
 #include "hal/cameras/synthetic/synthetic_camera.h"
 #include "hal/captured_frame.h"
 #include "pipeline/engine/painter.h"
-#include "pipeline/marks/anchor.h"
+#include "pipeline/marks/anchors/anchor.h"
 #include "pipeline/measure/measurement.h"
 
 namespace pleinair::app {

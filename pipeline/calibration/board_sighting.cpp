@@ -13,6 +13,8 @@
 #include <glm/vec2.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "hal/median.h"
+
 namespace pleinair::calibration {
 namespace {
 
@@ -131,9 +133,7 @@ std::optional<double> widthOf(const hal::PlaneView& luma, hal::FrameSize size, c
 
 std::optional<double> medianWidth(std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
+  return hal::medianOf(values);
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "hal/median.h"
+
 namespace pleinair::calibration {
 namespace {
 
@@ -17,12 +19,6 @@ constexpr double kViewShare = 3.0;  // relative to the median view's error
 constexpr double kMinSigmaPx = 0.03;
 constexpr double kIndifference = 1.02;
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 double distancePx(const LensFit& fit, std::size_t view, const tracking::Correspondence& point) {
   const glm::dvec3 seen(fit.cameraFromBoard[view] * glm::dvec4(point.target, 1.0));
@@ -36,13 +32,13 @@ double robustSigma(const LensFit& fit, std::span<const FitView> views) {
   for (std::size_t v = 0; v < views.size(); ++v) {
     for (const auto& point : views[v]) distances.push_back(distancePx(fit, v, point));
   }
-  return std::max(kMinSigmaPx, median(std::move(distances)) / 1.1774);
+  return std::max(kMinSigmaPx, hal::medianOf(distances) / 1.1774);
 }
 
 double viewError(const LensFit& fit, std::size_t view, const FitView& points) {
   std::vector<double> distances;
   for (const auto& point : points) distances.push_back(distancePx(fit, view, point));
-  return median(std::move(distances));
+  return hal::medianOf(distances);
 }
 
 /// A fit to all views that gives little weight to contradicting ones.
@@ -59,7 +55,7 @@ void reject(std::span<const FitView> views, const LensFit& fit, LensChoice& choi
   std::vector<double> errors;
   for (std::size_t v = 0; v < views.size(); ++v) errors.push_back(viewError(fit, v, views[v]));
   const double sigma = robustSigma(fit, views);
-  const double limit = kViewShare * std::max(median(errors), kMinSigmaPx);
+  const double limit = kViewShare * std::max(hal::medianOf(std::vector(errors)), kMinSigmaPx);
   for (std::size_t v = 0; v < views.size(); ++v) {
     if (errors[v] > limit) continue;
     FitView kept;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "hal/median.h"
 #include "pipeline/calibration/lens_uncertainty.h"
 
 namespace pleinair::calibration {
@@ -169,8 +170,7 @@ void judgePlaces(CalibrationReport& report, hal::FrameSize size) {
     report.worstSigmaPx = place.sigmaPx;
     report.worstPlace = placeName(place.px, size);
   }
-  std::ranges::nth_element(sigmas, sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2));
-  report.typicalSigmaPx = sigmas[sigmas.size() / 2];
+  report.typicalSigmaPx = hal::medianOf(sigmas);
   const double largest = kMaxSigmaPx * pictureScale(size);
   if (report.worstSigmaPx <= largest) return;
   report.refusals.push_back(

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "pipeline/gpu/camera_frames.h"
+#include "pipeline/gpu/frames/camera_frames.h"
 
 namespace pleinair {
 

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "hal/median.h"
+
 namespace pleinair {
 namespace {
 
@@ -15,12 +17,6 @@ static_assert(kTrackedSidePx == tracking::LumaFrame::kLongSidePx);
 constexpr int kMostLate = 3;
 /// The GPU's way takes at most this part of the copy's time.
 constexpr int kGain = 2;
-
-hal::Duration median(std::span<hal::Duration> times) {
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end());
-  return *middle;
-}
 
 std::string sizeText(hal::FrameSize size) {
   return fmt::format("{}x{} px", size.width, size.height);
@@ -144,8 +140,8 @@ bool FrameLuma::readBack(const hal::CapturedFrame& frame, gpu::CameraFrames& fra
 }
 
 void FrameLuma::decide() {
-  const hal::Duration copies = median(trial_.copies);
-  const hal::Duration readbacks = median(trial_.readbacks);
+  const hal::Duration copies = hal::medianOf(trial_.copies);
+  const hal::Duration readbacks = hal::medianOf(trial_.readbacks);
   trial_.isOver = true;
   trial_.readsBack = kGain * readbacks <= copies;
   trial_.verdict = fmt::format("the GPU takes {:.2f} ms, a copy {:.2f} ms",

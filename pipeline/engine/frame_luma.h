@@ -10,10 +10,10 @@
 #include "hal/captured_frame.h"
 #include "hal/clock.h"
 #include "pipeline/engine/camera_path.h"
-#include "pipeline/gpu/camera_frames.h"
+#include "pipeline/gpu/frames/camera_frames.h"
 #include "pipeline/gpu/gpu_loss.h"
-#include "pipeline/gpu/luma_readback.h"
-#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/images/luma_readback.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/tracking/image/luma.h"
 
 namespace pleinair {

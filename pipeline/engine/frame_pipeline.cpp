@@ -11,7 +11,7 @@
 #include "hal/error.h"
 #include "pipeline/engine/debug_views.h"
 #include "pipeline/engine/quality_levels.h"
-#include "pipeline/gpu/aspect_fill.h"
+#include "pipeline/gpu/images/aspect_fill.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/overlay/overlay_shaders.h"
 #include "pipeline/present/present_shaders.h"

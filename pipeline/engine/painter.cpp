@@ -7,7 +7,7 @@
 #include "pipeline/engine/frame_pipeline.h"
 #include "pipeline/engine/quality_levels.h"
 #include "pipeline/gpu/handle.h"
-#include "pipeline/marks/motion_layers.h"
+#include "pipeline/marks/movers/motion_layers.h"
 #include "pipeline/styles/registry.h"
 
 namespace pleinair {

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <string>
 
-#include "pipeline/gpu/pixel_block.h"
+#include "pipeline/gpu/images/pixel_block.h"
 #include "pipeline/marks/fading_past.h"
 
 namespace pleinair::marks {

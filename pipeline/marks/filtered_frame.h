@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "hal/clock.h"
-#include "pipeline/gpu/program.h"
-#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/programs/program.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/scene/render/ar_frame.h"
 

@@ -5,7 +5,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 
-#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/programs/program.h"
 
 namespace pleinair::marks {
 

@@ -13,8 +13,9 @@
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 
+#include "hal/median.h"
 #include "pipeline/gpu/buffer.h"
-#include "pipeline/marks/anchor.h"
+#include "pipeline/marks/anchors/anchor.h"
 #include "pipeline/scene/description/scene.h"
 #include "pipeline/scene/render/ar_frame.h"
 #include "pipeline/scene/render/scene_uniforms.h"
@@ -81,13 +82,9 @@ float parallaxVariance(const ImageMotion& motion) {
     apart.at(i) = glm::dot(off, off);
     expected.at(i) = each.errorPx * each.errorPx;
   }
-  const auto medianOf = [count](std::array<float, tracking::kMaxMovedFeatures>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(count / 2);
-    std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
-    return *middle;
-  };
   constexpr float kMedianOfMean = 0.693F;  // for the square of a 2D normal deviate
-  return std::max(0.0F, medianOf(apart) / kMedianOfMean - medianOf(expected));
+  return std::max(0.0F, hal::medianOf(std::span(apart).first(count)) / kMedianOfMean -
+                            hal::medianOf(std::span(expected).first(count)));
 }
 
 }  // namespace

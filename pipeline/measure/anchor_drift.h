@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "pipeline/marks/anchor.h"
+#include "pipeline/marks/anchors/anchor.h"
 #include "pipeline/measure/mean.h"
 
 namespace pleinair::measure {

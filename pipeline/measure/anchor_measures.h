@@ -8,7 +8,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "pipeline/marks/anchor.h"
+#include "pipeline/marks/anchors/anchor.h"
 #include "pipeline/measure/anchor_drift.h"
 #include "pipeline/measure/input/motion_map.h"
 #include "pipeline/measure/mean.h"

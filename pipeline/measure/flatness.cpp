@@ -5,6 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "hal/median.h"
 #include "pipeline/measure/input/picture.h"
 
 namespace pleinair::measure {
@@ -175,9 +176,7 @@ void FlatnessMeasures::follow(const MotionMap& motion) {
     }
   }
   if (logs.empty()) return;
-  const auto middle = logs.begin() + static_cast<std::ptrdiff_t>(logs.size() / 2);
-  std::nth_element(logs.begin(), middle, logs.end());
-  logScale_ += *middle;
+  logScale_ += hal::medianOf(logs);
 }
 
 double FlatnessMeasures::scale() const {

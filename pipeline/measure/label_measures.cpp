@@ -4,7 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "pipeline/marks/motion_layers.h"
+#include "pipeline/marks/movers/motion_layers.h"
 #include "pipeline/measure/mover_masks.h"
 
 namespace pleinair::measure {

@@ -9,7 +9,7 @@
 #include "hal/captured_frame.h"
 #include "hal/error.h"
 #include "hal/image.h"
-#include "pipeline/marks/anchor.h"
+#include "pipeline/marks/anchors/anchor.h"
 #include "pipeline/measure/input/measured_input.h"
 #include "pipeline/measure/input/model_motion.h"
 #include "pipeline/measure/measurement_report.h"

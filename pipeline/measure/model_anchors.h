@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/marks/anchor.h"
+#include "pipeline/marks/anchors/anchor.h"
 #include "pipeline/measure/anchor_drift.h"
 #include "pipeline/measure/input/motion_map.h"
 
@@ -27,7 +27,7 @@ struct ModelMotionOfAnchors {
 struct ModelAnchorSummary {
   std::size_t frames = 0;
   double anchors = 0, births = 0, deaths = 0;
-  double turnoverPercent = 0;     ///< births and deaths, relative to the anchors
+  double turnoverPercent = 0;  ///< births and deaths, relative to the anchors
   /// The mean absolute change of the models' screen area, in per cent of it a frame: as many marks
   /// have to come or go.
   double resizedPercent = 0;

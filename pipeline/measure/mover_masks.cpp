@@ -8,6 +8,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "hal/median.h"
 #include "pipeline/measure/input/picture.h"
 
 namespace pleinair::measure {
@@ -31,13 +32,11 @@ cv::Mat3b medianOf(const std::vector<cv::Mat3b>& inputs) {
   }
   cv::Mat3b median(inputs.front().size());
   std::vector<std::uint8_t> values(count);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(count / 2);
   for (int y = 0; y < median.rows; ++y) {
     for (int x = 0; x < median.cols; ++x) {
       for (int c = 0; c < 3; ++c) {
         for (std::size_t i = 0; i < count; ++i) values[i] = (*some[i])(y, x)[c];
-        std::nth_element(values.begin(), middle, values.end());
-        median(y, x)[c] = *middle;
+        median(y, x)[c] = hal::medianOf(values);
       }
     }
   }

@@ -11,9 +11,9 @@
 
 #include "pipeline/gpu/buffer.h"
 #include "pipeline/gpu/handle.h"
-#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/programs/program.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/render_target.h"
-#include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/overlay/overlay_content.h"
 #include "pipeline/scene/models/model.h"

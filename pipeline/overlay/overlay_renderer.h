@@ -11,9 +11,9 @@
 #include <glm/vec2.hpp>
 
 #include "hal/clock.h"
-#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/programs/program.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/render_target.h"
-#include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/overlay/figure_drawer.h"
 #include "pipeline/overlay/label_layout.h"

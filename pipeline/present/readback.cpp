@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "hal/error.h"
-#include "pipeline/gpu/aspect_fill.h"
-#include "pipeline/gpu/ycbcr.h"
+#include "pipeline/gpu/frames/ycbcr.h"
+#include "pipeline/gpu/images/aspect_fill.h"
 #include "pipeline/present/present_shaders.h"
 
 namespace pleinair::present {

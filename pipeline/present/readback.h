@@ -10,10 +10,10 @@
 #include "hal/image.h"
 #include "pipeline/gpu/buffer.h"
 #include "pipeline/gpu/handle.h"
-#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/images/resampler.h"
+#include "pipeline/gpu/programs/program.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/render_target.h"
-#include "pipeline/gpu/resampler.h"
-#include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 
 namespace pleinair::present {

@@ -7,7 +7,7 @@
 #include <glm/vec4.hpp>
 
 #include "hal/error.h"
-#include "pipeline/gpu/aspect_fill.h"
+#include "pipeline/gpu/images/aspect_fill.h"
 
 namespace pleinair::present {
 namespace {

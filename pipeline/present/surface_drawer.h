@@ -6,12 +6,12 @@
 
 #include "hal/clock.h"
 #include "hal/surface.h"
+#include "pipeline/gpu/frames/imported_texture.h"
 #include "pipeline/gpu/handle.h"
-#include "pipeline/gpu/imported_texture.h"
-#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/images/resampler.h"
+#include "pipeline/gpu/programs/program.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/render_target.h"
-#include "pipeline/gpu/resampler.h"
-#include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 
 namespace pleinair::present {

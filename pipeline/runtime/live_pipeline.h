@@ -9,12 +9,12 @@
 #include "hal/clock.h"
 #include "hal/output.h"
 #include "hal/supervisor/camera_supervisor.h"
-#include "pipeline/runtime/capture_stage.h"
+#include "pipeline/runtime/capture/capture_stage.h"
 #include "pipeline/runtime/frame_ledger.h"
 #include "pipeline/runtime/mailbox.h"
-#include "pipeline/runtime/output_stage.h"
-#include "pipeline/runtime/paint_stage.h"
-#include "pipeline/runtime/runtime_status.h"
+#include "pipeline/runtime/output/output_stage.h"
+#include "pipeline/runtime/paint/paint_stage.h"
+#include "pipeline/runtime/status/runtime_status.h"
 
 namespace pleinair::runtime {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/programs/shader_library.h"
 
 namespace pleinair::styles {
 

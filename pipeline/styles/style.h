@@ -7,9 +7,9 @@
 
 #include "config/parameter_values.h"
 #include "hal/error.h"
-#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/texture.h"
-#include "pipeline/marks/anchor.h"
+#include "pipeline/marks/anchors/anchor.h"
 #include "pipeline/scene/render/ar_frame.h"
 #include "pipeline/styles/coherence_gates.h"
 #include "pipeline/styles/debug_views.h"

@@ -14,7 +14,7 @@
 
 #include "hal/clock.h"
 #include "hal/pixel_format.h"
-#include "pipeline/gpu/pass_timer.h"
+#include "pipeline/gpu/programs/pass_timer.h"
 
 namespace pleinair::bench {
 

@@ -7,8 +7,8 @@
 
 #include "hal/error.h"
 #include "hal/image.h"
-#include "pipeline/gpu/egl_context.h"
-#include "pipeline/gpu/frame_upload.h"
+#include "pipeline/gpu/context/egl_context.h"
+#include "pipeline/gpu/frames/frame_upload.h"
 #include "pipeline/present/present_shaders.h"
 #include "pipeline/present/readback.h"
 #include "tests/bench/benchmarks.h"

@@ -10,10 +10,10 @@
 #include <benchmark/benchmark.h>
 
 #include "hal/error.h"
-#include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/context/egl_context.h"
 #include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/gpu/handle.h"
-#include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/anchors/anchor_set.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/scene/render/ar_frame_renderer.h"
 #include "pipeline/scene/scene_shaders.h"
@@ -195,9 +195,9 @@ void onParts(benchmark::State& state, support::Parts parts, bool isReal) {
   for (int i = 0; i < kTimed; ++i) frame();
   int passes = 0;
   for (const gpu::PassTime& each : bench.timer.times()) {
-    if (!each.pass.starts_with("marks: anchor")) continue;
+    if (!each.pass.starts_with("anchors: anchor")) continue;
     passes += each.count;
-    const std::string name = each.pass.substr(std::string_view("marks: anchor_").size());
+    const std::string name = each.pass.substr(std::string_view("anchors: anchor_").size());
     state.counters[name + "_ms"] = 1e-6 * static_cast<double>(each.total.count()) / kTimed;
   }
   state.counters["passes"] = static_cast<double>(passes) / kTimed;
@@ -242,12 +242,12 @@ void motionField(benchmark::State& state) {
 }
 
 void carryAnchors(benchmark::State& state) {
-  passes(state, {"marks: anchor_image", "marks: anchor_surface"});
+  passes(state, {"anchors: anchor_image", "anchors: anchor_surface"});
 }
 
 void keepDensity(benchmark::State& state) {
-  passes(state, {"marks: anchor_count", "marks: anchor_density", "marks: anchor_plan",
-                 "marks: anchor_spawn"});
+  passes(state, {"anchors: anchor_count", "anchors: anchor_density", "anchors: anchor_plan",
+                 "anchors: anchor_spawn"});
 }
 
 BENCHMARK(motionField)->Name("marks/motion field")->Apply(passAtBothSizes);

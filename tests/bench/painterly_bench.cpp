@@ -101,9 +101,10 @@ bool beginsWithOneOf(std::string_view pass, std::initializer_list<std::string_vi
 }
 
 std::string_view stageOf(std::string_view pass) {
-  if (beginsWithOneOf(pass, {"marks: gradient", "marks: edge_", "marks: tensor_"})) return "tensor";
+  if (beginsWithOneOf(pass, {"tensors: gradient", "tensors: edge_", "tensors: tensor_"}))
+    return "tensor";
   if (pass == "follow picture") return "features";
-  if (beginsWithOneOf(pass, {"marks: feature_layers", "marks: motion_field", "marks: anchor_"}))
+  if (beginsWithOneOf(pass, {"marks: feature_layers", "marks: motion_field", "anchors: anchor_"}))
     return "warping";
   return "painting";
 }
@@ -164,7 +165,7 @@ void layers(benchmark::State& state, hal::SyntheticShot shot, std::uint64_t firs
   std::map<std::string, double, std::less<>> before;
   const auto passes = [&](auto each) {
     for (const gpu::PassTime& pass : bench.painter.passTimes()) {
-      if (!beginsWithOneOf(pass.pass, {"marks: motion_layers", "marks: mover_"})) continue;
+      if (!beginsWithOneOf(pass.pass, {"movers: motion_layers", "movers: mover_"})) continue;
       each(pass.pass, std::chrono::duration<double, std::milli>(pass.total).count());
     }
   };

@@ -13,7 +13,7 @@
 #include <glm/ext/matrix_transform.hpp>
 
 #include "hal/error.h"
-#include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/context/egl_context.h"
 #include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/scene/description/scene_file.h"
 #include "pipeline/scene/light/light_estimator.h"

@@ -11,7 +11,7 @@
 #include <opencv2/photo.hpp>
 
 #include "hal/error.h"
-#include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/context/egl_context.h"
 #include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/gpu/handle.h"
 #include "pipeline/marks/marks_shaders.h"

@@ -9,8 +9,8 @@
 
 #include "hal/image.h"
 #include "pipeline/gpu/buffer.h"
-#include "pipeline/gpu/egl_context.h"
-#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/context/egl_context.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/texture.h"
 
 namespace pleinair::support {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hal/image.h"
-#include "pipeline/runtime/frame_painter.h"
+#include "pipeline/runtime/paint/frame_painter.h"
 
 namespace pleinair::support {
 

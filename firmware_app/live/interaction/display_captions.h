@@ -7,7 +7,7 @@
 
 #include "firmware_app/live/interaction/live_caption.h"
 #include "hal/output.h"
-#include "pipeline/runtime/output_stage.h"
+#include "pipeline/runtime/output/output_stage.h"
 
 namespace pleinair::app {
 

@@ -12,7 +12,7 @@
 #include "hal/image.h"
 #include "pipeline/present/waiting_picture.h"
 #include "pipeline/runtime/frame_ledger.h"
-#include "pipeline/runtime/output_stage.h"
+#include "pipeline/runtime/output/output_stage.h"
 
 namespace pleinair::app {
 

@@ -13,7 +13,7 @@
 #include "hal/clock.h"
 #include "hal/error.h"
 #include "hal/image.h"
-#include "pipeline/runtime/output_stage.h"
+#include "pipeline/runtime/output/output_stage.h"
 
 namespace pleinair::app {
 

@@ -5,7 +5,7 @@
 
 #include "hal/clock.h"
 #include "pipeline/present/waiting_picture.h"
-#include "pipeline/runtime/capture_stage.h"
+#include "pipeline/runtime/capture/capture_stage.h"
 
 namespace pleinair::app {
 

@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "firmware_app/cli/standard_streams.h"
-#include "pipeline/runtime/status_text.h"
+#include "pipeline/runtime/status/status_text.h"
 
 namespace pleinair::app {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "hal/camera.h"
 #include "hal/clock.h"
-#include "pipeline/runtime/runtime_status.h"
+#include "pipeline/runtime/status/runtime_status.h"
 
 namespace pleinair::app {
 

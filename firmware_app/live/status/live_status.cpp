@@ -5,7 +5,7 @@
 #include "firmware_app/live/status/status_page.h"
 #include "firmware_app/live/status/thumbnail.h"
 #include "pipeline/engine/painter.h"
-#include "pipeline/runtime/status_text.h"
+#include "pipeline/runtime/status/status_text.h"
 
 namespace pleinair::app {
 

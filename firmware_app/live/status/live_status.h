@@ -9,7 +9,7 @@
 #include "firmware_app/status_server/status_server.h"
 #include "hal/clock.h"
 #include "pipeline/runtime/live_pipeline.h"
-#include "pipeline/runtime/runtime_status.h"
+#include "pipeline/runtime/status/runtime_status.h"
 
 namespace pleinair::app {
 

@@ -8,7 +8,7 @@
 
 #include "hal/clock.h"
 #include "hal/machine/machine_monitor.h"
-#include "pipeline/runtime/heat_guard.h"
+#include "pipeline/runtime/control/heat_guard.h"
 
 namespace pleinair::app {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hal/clock.h"
-#include "pipeline/runtime/output_stage.h"
+#include "pipeline/runtime/output/output_stage.h"
 
 namespace pleinair::app {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/runtime/runtime_status.h"
+#include "pipeline/runtime/status/runtime_status.h"
 
 namespace pleinair::app {
 

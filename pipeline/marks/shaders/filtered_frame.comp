@@ -6,7 +6,7 @@
 // Inputs:  filtered_frame.glsl's; backward (marks/motion_field.h); pixelsOfFull.
 // Outputs: filtered.
 // Precision: highp.
-#include "pipeline/gpu/shaders/pixel_block.glsl"
+#include "pipeline/gpu/images/shaders/pixel_block.glsl"
 #include "pipeline/marks/shaders/filtered_frame.glsl"
 layout(local_size_x = 16, local_size_y = 4) in;
 uniform sampler2D backward;

@@ -4,7 +4,7 @@
 // Outputs: filtered, on virtual objects. One invocation per block of 4x4 pixels, since software
 //          renderers pay for each.
 // Precision: highp.
-#include "pipeline/gpu/shaders/pixel_block.glsl"
+#include "pipeline/gpu/images/shaders/pixel_block.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/marks/shaders/filtered_frame.glsl"
 layout(local_size_x = 16, local_size_y = 4) in;

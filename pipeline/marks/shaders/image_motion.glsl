@@ -6,7 +6,7 @@
 // Outputs: displacement, predicted error, source (anchor.glsl), and afterwards the Jacobian. All px of
 //          the full image.
 // Precision: highp. Displacements are sums of differences, so that a static image gives exactly 0.
-#include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/marks/anchors/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/feature.glsl"
 #include "pipeline/scene/render/shaders/planes.glsl"
 

@@ -8,8 +8,9 @@
 #include <span>
 #include <utility>
 
+#include "hal/median.h"
 #include "pipeline/gpu/buffer.h"
-#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/programs/program.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/measure/baselines/edge_tensors.h"
 
@@ -51,8 +52,7 @@ double medianMs(int runs, const std::function<void()>& work) {
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
             .count());
   }
-  std::ranges::nth_element(times, times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2));
-  return times[times.size() / 2];
+  return hal::medianOf(times);
 }
 
 struct Way {

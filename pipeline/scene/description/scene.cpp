@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/gpu/aspect_fill.h"
+#include "pipeline/gpu/images/aspect_fill.h"
 
 namespace pleinair::scene {
 

@@ -9,7 +9,7 @@
 
 #include <glm/common.hpp>
 
-#include "pipeline/gpu/ycbcr.h"
+#include "pipeline/gpu/frames/ycbcr.h"
 
 namespace pleinair::scene {
 namespace {

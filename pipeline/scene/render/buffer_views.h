@@ -3,10 +3,10 @@
 #include <span>
 #include <string_view>
 
-#include "pipeline/gpu/per_size.h"
-#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/images/per_size.h"
+#include "pipeline/gpu/programs/program.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/render_target.h"
-#include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/scene/render/ar_frame.h"
 

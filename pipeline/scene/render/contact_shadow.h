@@ -9,9 +9,9 @@
 #include <glm/mat4x4.hpp>
 
 #include "pipeline/gpu/handle.h"
-#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/programs/program.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/render_target.h"
-#include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/scene/description/scene.h"
 #include "pipeline/scene/light/lighting.h"

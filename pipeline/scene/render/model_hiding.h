@@ -1,8 +1,8 @@
 #pragma once
 
 #include "pipeline/gpu/buffer.h"
-#include "pipeline/gpu/program.h"
-#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/programs/program.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/scene/render/ar_frame.h"
 

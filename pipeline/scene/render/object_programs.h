@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "pipeline/gpu/program.h"
-#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/programs/program.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/scene/render/ar_frame.h"
 
 namespace pleinair::scene {

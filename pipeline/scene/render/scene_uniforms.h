@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/programs/program.h"
 #include "pipeline/scene/light/lighting.h"
 #include "pipeline/scene/render/ar_frame.h"
 #include "pipeline/tracking/camera/camera_model.h"

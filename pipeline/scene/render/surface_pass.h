@@ -8,9 +8,9 @@
 #include <glm/vec4.hpp>
 
 #include "pipeline/gpu/buffer.h"
-#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/programs/program.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/render_target.h"
-#include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/scene/description/scene.h"
 #include "pipeline/scene/render/posed_geometry.h"

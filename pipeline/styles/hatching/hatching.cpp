@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/gpu/per_size.h"
-#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/images/per_size.h"
+#include "pipeline/gpu/programs/program.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/marks/filtered_frame.h"
-#include "pipeline/marks/layer_textures.h"
+#include "pipeline/marks/movers/layer_textures.h"
 #include "pipeline/scene/render/model_hiding.h"
 #include "pipeline/styles/hatching/drawing_plan.h"
 #include "pipeline/styles/hatching/drawing_tone.h"

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/styles/hatching/hatch_lines.h"
 #include "pipeline/styles/hatching/hatching_parameters.h"
 #include "pipeline/styles/style.h"

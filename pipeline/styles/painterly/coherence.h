@@ -1,9 +1,9 @@
 #pragma once
 
-#include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/anchors/anchor_set.h"
 #include "pipeline/marks/motion_field.h"
-#include "pipeline/marks/stroke_set.h"
-#include "pipeline/marks/tensor_field.h"
+#include "pipeline/marks/strokes/stroke_set.h"
+#include "pipeline/marks/tensors/tensor_field.h"
 #include "pipeline/styles/painterly/painterly_parameters.h"
 
 namespace pleinair::styles {

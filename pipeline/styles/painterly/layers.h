@@ -3,8 +3,8 @@
 #include <cstddef>
 
 #include "hal/pixel_format.h"
-#include "pipeline/marks/anchor_set.h"
-#include "pipeline/marks/stroke_set.h"
+#include "pipeline/marks/anchors/anchor_set.h"
+#include "pipeline/marks/strokes/stroke_set.h"
 #include "pipeline/styles/painterly/painterly_parameters.h"
 
 namespace pleinair::styles {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "hal/error.h"
-#include "pipeline/gpu/shader_library.h"
-#include "pipeline/marks/anchor_set.h"
-#include "pipeline/marks/stroke_set.h"
+#include "pipeline/gpu/programs/shader_library.h"
+#include "pipeline/marks/anchors/anchor_set.h"
+#include "pipeline/marks/strokes/stroke_set.h"
 #include "pipeline/styles/painterly/painterly_parameters.h"
 #include "pipeline/styles/style.h"
 

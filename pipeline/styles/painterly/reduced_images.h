@@ -4,13 +4,13 @@
 #include <cstddef>
 #include <optional>
 
-#include "pipeline/gpu/per_size.h"
-#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/images/per_size.h"
+#include "pipeline/gpu/programs/program.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/render_target.h"
-#include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
-#include "pipeline/marks/layer_textures.h"
-#include "pipeline/marks/stroke_set.h"
+#include "pipeline/marks/movers/layer_textures.h"
+#include "pipeline/marks/strokes/stroke_set.h"
 #include "pipeline/scene/render/ar_frame.h"
 
 namespace pleinair::marks {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "hal/error.h"
-#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/styles/strokes/brush_file.h"
 #include "pipeline/styles/strokes/brushes.h"

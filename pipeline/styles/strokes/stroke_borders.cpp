@@ -8,7 +8,8 @@ namespace {
 
 const std::string kShaders = "pipeline/styles/strokes/shaders/";
 constexpr std::array kFormats{gpu::TextureFormat::kR32ui};
-/// A pixel without a border (pipeline/marks/shaders/stroke_border.glsl): of label 0, all of it.
+/// A pixel without a border (pipeline/marks/strokes/shaders/stroke_border.glsl): of label 0, all of
+/// it.
 constexpr unsigned kNoBorder = 31U << 26U;
 
 /// Fills what borders.glsl reads in both of its programs.

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/programs/program.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/render_target.h"
-#include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
-#include "pipeline/marks/layer_textures.h"
-#include "pipeline/marks/motion_layers.h"
-#include "pipeline/marks/segment_map.h"
+#include "pipeline/marks/movers/layer_textures.h"
+#include "pipeline/marks/movers/motion_layers.h"
+#include "pipeline/marks/tensors/segment_map.h"
 #include "pipeline/scene/render/ar_frame.h"
 
 namespace pleinair::styles {

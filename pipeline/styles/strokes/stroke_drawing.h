@@ -4,11 +4,11 @@
 #include <span>
 
 #include "pipeline/gpu/handle.h"
-#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/programs/program.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/render_target.h"
-#include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
-#include "pipeline/marks/stroke_set.h"
+#include "pipeline/marks/strokes/stroke_set.h"
 #include "pipeline/styles/debug_views.h"
 #include "pipeline/styles/strokes/stroke_strips.h"
 

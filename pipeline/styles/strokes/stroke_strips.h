@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "pipeline/gpu/buffer.h"
-#include "pipeline/gpu/program.h"
-#include "pipeline/gpu/shader_library.h"
-#include "pipeline/marks/busy_blocks.h"
-#include "pipeline/marks/stroke_set.h"
+#include "pipeline/gpu/programs/program.h"
+#include "pipeline/gpu/programs/shader_library.h"
+#include "pipeline/marks/movers/busy_blocks.h"
+#include "pipeline/marks/strokes/stroke_set.h"
 
 namespace pleinair::styles {
 

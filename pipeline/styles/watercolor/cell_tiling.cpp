@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "pipeline/gpu/pixel_block.h"
+#include "pipeline/gpu/images/pixel_block.h"
 
 namespace pleinair::styles {
 namespace {

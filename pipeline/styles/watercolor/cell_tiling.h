@@ -8,12 +8,12 @@
 
 #include "hal/clock.h"
 #include "pipeline/gpu/buffer.h"
-#include "pipeline/gpu/program.h"
-#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/programs/program.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/texture.h"
-#include "pipeline/marks/anchor_set.h"
-#include "pipeline/marks/layer_textures.h"
-#include "pipeline/marks/point_bins.h"
+#include "pipeline/marks/anchors/anchor_set.h"
+#include "pipeline/marks/anchors/point_bins.h"
+#include "pipeline/marks/movers/layer_textures.h"
 #include "pipeline/scene/render/object_programs.h"
 #include "pipeline/styles/watercolor/watercolor_parameters.h"
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
-#include "pipeline/gpu/pixel_block.h"
+#include "pipeline/gpu/images/pixel_block.h"
 #include "pipeline/marks/fading_past.h"
 #include "pipeline/marks/filtered_frame.h"
 #include "pipeline/marks/motion_field.h"
-#include "pipeline/marks/motion_layers.h"
+#include "pipeline/marks/movers/motion_layers.h"
 #include "pipeline/scene/render/model_hiding.h"
 #include "pipeline/styles/substrate/substrate.h"
 #include "pipeline/styles/substrate/substrate_shaders.h"

@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include "pipeline/gpu/per_size.h"
-#include "pipeline/gpu/shader_library.h"
-#include "pipeline/marks/anchor_set.h"
+#include "pipeline/gpu/images/per_size.h"
+#include "pipeline/gpu/programs/shader_library.h"
+#include "pipeline/marks/anchors/anchor_set.h"
 #include "pipeline/styles/style.h"
 #include "pipeline/styles/watercolor/cell_tiling.h"
 #include "pipeline/styles/watercolor/watercolor_parameters.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pipeline/tracking/image/homography.h"
+#include "pipeline/tracking/motion/similarity_fit.h"
 
 namespace pleinair::tracking {
 namespace {
@@ -20,28 +21,11 @@ double apartPx(const PlaneSimilarity& a, const PlaneSimilarity& b, hal::FrameSiz
   return most;
 }
 
-/// The turn, zoom and shift nearest to a homography over the whole image (Umeyama, 1991).
+/// The turn, zoom and shift nearest to a homography over the whole image, which has several px.
 PlaneSimilarity nearestTo(const glm::dmat3& homography, hal::FrameSize size) {
-  glm::dvec2 from(0.0);
-  glm::dvec2 to(0.0);
-  double count = 0.0;
-  forGridCentres(size, [&](const glm::dvec2& px) {
-    from += px;
-    to += movedBy(homography, px);
-    count += 1.0;
-  });
-  from /= count;
-  to /= count;
-  glm::dvec2 products(0.0);
-  double squares = 0.0;
-  forGridCentres(size, [&](const glm::dvec2& px) {
-    const glm::dvec2 a = px - from;
-    products += PlaneSimilarity::product({a.x, -a.y}, movedBy(homography, px) - to);
-    squares += glm::dot(a, a);
-  });
-  PlaneSimilarity nearest{.linear = products / squares};
-  nearest.shift = to - PlaneSimilarity::product(nearest.linear, from);
-  return nearest;
+  SimilarityFit fit;
+  forGridCentres(size, [&](const glm::dvec2& px) { fit.add(px, movedBy(homography, px)); });
+  return fit.nearest().value_or(PlaneSimilarity{});
 }
 
 }  // namespace

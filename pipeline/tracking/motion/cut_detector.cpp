@@ -10,6 +10,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "hal/median.h"
 #include "pipeline/tracking/image/luma_pyramid.h"
 
 namespace pleinair::tracking {
@@ -33,11 +34,9 @@ double Thumbnail::unchangedPart(const Thumbnail& other) const {
   constexpr float kBlack = 10.0F;
   std::array<float, std::tuple_size_v<decltype(values_)>> differences{};
   std::ranges::transform(other.values_, values_, differences.begin(), std::minus<>{});
-  const auto middle = differences.begin() + differences.size() / 2;
-  std::nth_element(differences.begin(), middle, differences.end());
   constexpr float kMostLight = 20.0F;  // a bare view of another colour is another view
-  if (std::abs(*middle) > kMostLight) return 0.0;
-  const float light = *middle;
+  const float light = hal::medianOf(differences);
+  if (std::abs(light) > kMostLight) return 0.0;
   std::size_t unchanged = 0;
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const bool isSeen = values_[i] > kBlack && other.values_[i] > kBlack;

@@ -5,9 +5,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "hal/median.h"
 #include "pipeline/tracking/image/homography.h"
 #include "pipeline/tracking/motion/feature_places.h"
-#include "pipeline/tracking/motion/median.h"
 
 namespace pleinair::tracking {
 namespace {
@@ -161,7 +161,7 @@ bool JitterSuppressor::restSpeaksAgainst(const std::optional<HomographyFit>& fit
     apart_.push_back(glm::distance(fitted, pair.current) / pair.errorPx);
   }
   if (atRest.count() < leastAtRest || 3 * atRest.count() < seen.count()) return false;
-  return !fit || medianOf(apart_) > medianOf(moved_);
+  return !fit || hal::medianOf(apart_) > hal::medianOf(moved_);
 }
 
 /// Whether a mounted camera has been pushed: all over the image, nearly everything moves as one,

@@ -6,9 +6,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "hal/median.h"
 #include "pipeline/tracking/motion/feature_places.h"
 #include "pipeline/tracking/motion/image_motion.h"
-#include "pipeline/tracking/motion/median.h"
+#include "pipeline/tracking/motion/similarity_fit.h"
 
 namespace pleinair::tracking {
 namespace {
@@ -28,40 +29,21 @@ constexpr double kLeastErrors = 3.0;
 /// … and features do not go on as they went: parallax is no similarity, either.
 constexpr double kMostCorrelation = 0.5;
 
-/// The similarity that takes `from` to `to` with the least squares, each weighed by the inverse of
-/// its distance in the round before, so that what goes another way counts little.
+/// The similarity that takes `from` to `to`, each weighed by the inverse of its distance in the
+/// round before, so that what goes another way counts little.
 PlaneSimilarity similarityOf(std::span<const glm::dvec2> from, std::span<const glm::dvec2> to,
                              double leastPx) {
   constexpr int kRounds = 4;
-  PlaneSimilarity fit;
+  PlaneSimilarity nearest;
   for (int round = 0; round < kRounds; ++round) {
-    double weights = 0.0;
-    glm::dvec2 fromMean(0.0);
-    glm::dvec2 toMean(0.0);
-    const auto weightOf = [&](std::size_t i) {
-      return 1.0 / std::max(glm::distance(fit(from[i]), to[i]), leastPx);
-    };
+    SimilarityFit fit;
     for (std::size_t i = 0; i < from.size(); ++i) {
-      const double weight = weightOf(i);
-      weights += weight;
-      fromMean += weight * from[i];
-      toMean += weight * to[i];
+      const double apartPx = glm::distance(nearest(from[i]), to[i]);
+      fit.add(from[i], to[i], 1.0 / std::max(apartPx, leastPx));
     }
-    fromMean /= weights;
-    toMean /= weights;
-    glm::dvec2 products(0.0);
-    double squares = 0.0;
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      const double weight = weightOf(i);
-      const glm::dvec2 a = from[i] - fromMean;
-      products += weight * PlaneSimilarity::product({a.x, -a.y}, to[i] - toMean);
-      squares += weight * glm::dot(a, a);
-    }
-    if (squares <= 0.0) return fit;
-    fit.linear = products / squares;
-    fit.shift = toMean - PlaneSimilarity::product(fit.linear, fromMean);
+    nearest = fit.nearest().value_or(nearest);
   }
-  return fit;
+  return nearest;
 }
 
 }  // namespace
@@ -133,9 +115,9 @@ SwayDetector::Comparison SwayDetector::compare(hal::FrameSize size, double scale
     squares += glm::dvec2(glm::dot(before, before), glm::dot(after, after));
   }
   const double lengths = std::sqrt(squares.x * squares.y);
-  return {.distancePx = medianOf(distances_),
-          .residualPx = medianOf(residuals_),
-          .errorPx = medianOf(errors_),
+  return {.distancePx = hal::medianOf(distances_),
+          .residualPx = hal::medianOf(residuals_),
+          .errorPx = hal::medianOf(errors_),
           .correlation = lengths > 0.0 ? products / lengths : 0.0,
           .isKnown = true};
 }

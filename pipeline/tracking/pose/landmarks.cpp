@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 
+#include "hal/median.h"
 #include "pipeline/tracking/pose/twist.h"
 
 namespace pleinair::tracking {
@@ -175,8 +176,7 @@ std::size_t Landmarks::keepAgreeing(const CameraModel& camera, const glm::dmat4&
   };
   errors_.clear();
   for (const Correspondence& point : points_) errors_.push_back(errorOf(point));
-  std::ranges::nth_element(errors_, errors_.begin() + std::ssize(errors_) / 2);
-  const double median = errors_[errors_.size() / 2];
+  const double median = hal::medianOf(errors_);
   const double most = std::max({kMinAgreementPx, kAgreeSigmas * noisePx, 3.0 * median});
   std::erase_if(points_, [&](const Correspondence& point) { return errorOf(point) > most; });
   return points_.size();

@@ -24,8 +24,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "pipeline/gpu/egl_context.h"
-#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/context/egl_context.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "tests/embedded_gpu/replay/device_limits.h"
 #include "tests/embedded_gpu/replay/replayed_state.h"
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/gpu/handle.h"
-#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/programs/program.h"
 
 namespace pleinair::embedded_gpu {
 

@@ -1,11 +1,11 @@
 // How camera frames reach the GPU, with buffers that stand for imported ones.
-#include "pipeline/gpu/camera_frames.h"
+#include "pipeline/gpu/frames/camera_frames.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/gpu/imported_texture.h"
-#include "pipeline/gpu/pixel_comparison.h"
+#include "pipeline/gpu/frames/imported_texture.h"
+#include "pipeline/gpu/images/pixel_comparison.h"
 #include "tests/gpu/frames/shared_buffers.h"
 #include "tests/support/gl_test.h"
 

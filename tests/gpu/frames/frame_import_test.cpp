@@ -10,9 +10,9 @@
 
 #include "hal/frame_memory/allocators.h"
 #include "hal/frame_memory/shared_frame.h"
-#include "pipeline/gpu/camera_frames.h"
-#include "pipeline/gpu/imported_texture.h"
-#include "pipeline/gpu/pixel_comparison.h"
+#include "pipeline/gpu/frames/camera_frames.h"
+#include "pipeline/gpu/frames/imported_texture.h"
+#include "pipeline/gpu/images/pixel_comparison.h"
 #include "tests/support/gl_pictures.h"
 #include "tests/support/gl_test.h"
 

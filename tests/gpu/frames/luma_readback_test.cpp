@@ -1,12 +1,12 @@
 // The GPU's way to a frame's luma, with buffers that stand for imported ones.
-#include "pipeline/gpu/luma_readback.h"
+#include "pipeline/gpu/images/luma_readback.h"
 
 #include <algorithm>
 #include <chrono>
 
 #include <gtest/gtest.h>
 
-#include "pipeline/gpu/camera_frames.h"
+#include "pipeline/gpu/frames/camera_frames.h"
 #include "pipeline/tracking/image/luma.h"
 #include "tests/gpu/frames/shared_buffers.h"
 #include "tests/support/gl_test.h"

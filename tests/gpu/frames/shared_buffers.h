@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "hal/captured_frame.h"
-#include "pipeline/gpu/frame_planes.h"
+#include "pipeline/gpu/frames/frame_planes.h"
 #include "pipeline/gpu/gl.h"
 #include "pipeline/gpu/gpu_loss.h"
 #include "tests/support/gl_pictures.h"

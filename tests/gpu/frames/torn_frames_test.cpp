@@ -9,8 +9,8 @@
 #include <EGL/eglext.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/gpu/camera_frames.h"
-#include "pipeline/gpu/pixel_comparison.h"
+#include "pipeline/gpu/frames/camera_frames.h"
+#include "pipeline/gpu/images/pixel_comparison.h"
 #include "tests/support/gl_test.h"
 
 namespace pleinair::gpu {

@@ -1,5 +1,5 @@
 // Work in a process of its own, which may crash. This executable's main() is that process, too.
-#include "pipeline/gpu/trial_process.h"
+#include "pipeline/gpu/frames/trial_process.h"
 
 #include <array>
 #include <csignal>

@@ -1,4 +1,4 @@
-#include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/context/egl_context.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/error.h"
-#include "pipeline/gpu/frame_upload.h"
+#include "pipeline/gpu/frames/frame_upload.h"
 #include "tests/support/environment.h"
 #include "tests/support/gl_pictures.h"
 #include "tests/support/gl_test.h"

@@ -1,4 +1,4 @@
-#include "pipeline/gpu/frame_upload.h"
+#include "pipeline/gpu/frames/frame_upload.h"
 
 #include <array>
 #include <string>

@@ -1,8 +1,8 @@
-#include "pipeline/gpu/pass_timer.h"
+#include "pipeline/gpu/programs/pass_timer.h"
 
 #include <gtest/gtest.h>
 
-#include "pipeline/gpu/resampler.h"
+#include "pipeline/gpu/images/resampler.h"
 #include "tests/support/gl_test.h"
 
 namespace pleinair::gpu {

@@ -1,4 +1,4 @@
-#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/programs/program.h"
 
 #include <array>
 #include <functional>
@@ -197,9 +197,10 @@ TEST_F(ProgramTest, TakesDeclaredNamesThatTheCompilerRemoved) {
 TEST_F(ProgramTest, KnowsItsGroupSizeAndItsPass) {
   EXPECT_EQ(library_.compute("t/number.comp").groupSize(), glm::ivec2(8, 4));
   EXPECT_EQ(library_.compute("t/number.comp").pass(), "t: number");
-  const Program own = library_.fragmentPass("pipeline/gpu/shaders/resample.frag", {{"WIDE"}});
-  EXPECT_EQ(own.pass(), "gpu: resample WIDE");
-  EXPECT_EQ(own.label(), "pipeline/gpu/shaders/resample.frag WIDE");
+  const Program own =
+      library_.fragmentPass("pipeline/gpu/images/shaders/resample.frag", {{"WIDE"}});
+  EXPECT_EQ(own.pass(), "images: resample WIDE");
+  EXPECT_EQ(own.label(), "pipeline/gpu/images/shaders/resample.frag WIDE");
 }
 
 TEST_F(ProgramTest, TimesItsRunsByTheLibrarysTimer) {

@@ -1,4 +1,4 @@
-#include "pipeline/gpu/resampler.h"
+#include "pipeline/gpu/images/resampler.h"
 
 #include <array>
 #include <string>

@@ -1,4 +1,4 @@
-#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/programs/shader_library.h"
 
 #include <array>
 #include <fstream>

@@ -14,7 +14,7 @@
 
 #include "firmware_app/overlay/machine.h"
 #include "hal/image.h"
-#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/inspection/part_window.h"
 #include "pipeline/scene/models/model.h"

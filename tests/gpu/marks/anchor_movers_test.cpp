@@ -10,7 +10,7 @@
 #include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
-#include "pipeline/marks/motion_layers.h"
+#include "pipeline/marks/movers/motion_layers.h"
 #include "tests/gpu/marks/anchor_life_fixture.h"
 
 namespace pleinair::marks {

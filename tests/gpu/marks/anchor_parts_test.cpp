@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "pipeline/gpu/pass_timer.h"
+#include "pipeline/gpu/programs/pass_timer.h"
 #include "pipeline/scene/models/model_pose.h"
 #include "tests/gpu/marks/anchor_life_fixture.h"
 #include "tests/oracles/surface_oracle.h"
@@ -42,7 +42,7 @@ class ManyParts : public AnchorLife {
     library_.setTimer(nullptr);
     int runs = 0;
     for (const gpu::PassTime& each : timer.times()) {
-      if (each.pass.starts_with("marks: anchor")) runs += each.count;
+      if (each.pass.starts_with("anchors: anchor")) runs += each.count;
     }
     return runs;
   }

@@ -1,6 +1,6 @@
 // A virtual model is hidden by what moves before it, as far as that is known: what covers the place
 // where the model stands, and all that hangs together with it.
-#include "pipeline/marks/front_movers.h"
+#include "pipeline/marks/movers/front_movers.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "pipeline/marks/motion_layers.h"
+#include "pipeline/marks/movers/motion_layers.h"
 #include "pipeline/scene/render/model_hiding.h"
 #include "tests/gpu/marks/anchor_life_fixture.h"
 #include "tests/gpu/marks/wall_and_disc.h"

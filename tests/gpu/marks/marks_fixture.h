@@ -7,7 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/anchors/anchor_set.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/marks/motion_field.h"
 #include "tests/gpu/scene/scene_gl_test.h"

@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "pipeline/marks/motion_layers.h"
+#include "pipeline/marks/movers/motion_layers.h"
 #include "tests/gpu/marks/anchor_life_fixture.h"
 #include "tests/gpu/marks/wall_and_disc.h"
 #include "tests/support/gl_test.h"

@@ -1,6 +1,6 @@
 // Movers are told from the background at once, and for as long as they are there; and the anchors
 // behind a mover are the same ones when it has passed.
-#include "pipeline/marks/motion_layers.h"
+#include "pipeline/marks/movers/motion_layers.h"
 
 #include <algorithm>
 #include <cstddef>

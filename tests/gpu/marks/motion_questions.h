@@ -9,8 +9,8 @@
 #include <glm/vec2.hpp>
 
 #include "pipeline/gpu/buffer.h"
-#include "pipeline/gpu/program.h"
-#include "pipeline/marks/anchor.h"
+#include "pipeline/gpu/programs/program.h"
+#include "pipeline/marks/anchors/anchor.h"
 #include "pipeline/marks/motion_field.h"
 #include "tests/support/gl_test.h"
 

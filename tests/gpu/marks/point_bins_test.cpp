@@ -1,5 +1,5 @@
 // Points in bins: all there, where they belong, in an order of their own.
-#include "pipeline/marks/point_bins.h"
+#include "pipeline/marks/anchors/point_bins.h"
 
 #include <algorithm>
 #include <random>

@@ -84,7 +84,7 @@ class StrokeCarry : public support::GlTest {
     const gpu::Buffer held = gpu::Buffer::of(std::span(anchors));
     const std::vector<StrokeSlot> all(anchors.size(), stroke);
     const gpu::Buffer strokes = gpu::Buffer::of(std::span(all));
-    library.compute("pipeline/marks/shaders/stroke_carry.comp")
+    library.compute("pipeline/marks/strokes/shaders/stroke_carry.comp")
         .use()
         .storage("Anchors", held)
         .storage("Strokes", strokes)

@@ -12,9 +12,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include "pipeline/marks/anchor_set.h"
-#include "pipeline/marks/motion_layers.h"
-#include "pipeline/marks/stroke_set.h"
+#include "pipeline/marks/anchors/anchor_set.h"
+#include "pipeline/marks/movers/motion_layers.h"
+#include "pipeline/marks/strokes/stroke_set.h"
 #include "tests/gpu/marks/tensor_fixture.h"
 
 namespace pleinair::marks {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::array<gpu::EmbeddedShader, 1> kShaders{
     {{"tests/held_directions.comp",
-      "#include \"pipeline/marks/shaders/stroke_history.glsl\"\n"
+      "#include \"pipeline/marks/strokes/shaders/stroke_history.glsl\"\n"
       "layout(local_size_x = 64) in;\n"
       "struct Question { vec4 nowWas; vec4 jacobian; vec4 stays; };\n"
       "layout(std430, binding = 0) readonly buffer Questions { Question questions[]; };\n"

@@ -58,7 +58,7 @@ class StrokeLists : public support::GlTest {
     gpu::ShaderLibrary library;
     library.add(gpu::sceneShaders());
     library.add(gpu::marksShaders());
-    gpu::Program program = library.compute("pipeline/marks/shaders/stroke_lists.comp");
+    gpu::Program program = library.compute("pipeline/marks/strokes/shaders/stroke_lists.comp");
     const auto count = static_cast<std::uint32_t>(slots.size());
     const gpu::Buffer anchors = gpu::Buffer::of(std::span<const Slot>(slots));
     const gpu::Buffer strokes(slots.size() * 96, gpu::BufferUsage::kDynamic);

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <optional>
 
-#include "pipeline/marks/motion_layers.h"
+#include "pipeline/marks/movers/motion_layers.h"
 #include "tests/gpu/marks/tensor_fixture.h"
 
 namespace pleinair::marks {

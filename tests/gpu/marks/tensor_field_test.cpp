@@ -11,7 +11,7 @@
 #include <gmock/gmock.h>
 
 #include "pipeline/gpu/render_target.h"
-#include "pipeline/marks/segment_map.h"
+#include "pipeline/marks/tensors/segment_map.h"
 #include "tests/gpu/marks/tensor_field_fixture.h"
 #include "tests/oracles/tensor_oracle.h"
 
@@ -34,7 +34,7 @@ class TensorFieldTest : public TensorFieldFixture {
     const gpu::Texture noIds(gpu::TextureFormat::kR32ui, {1, 1});
     gpu::Texture made(gpu::TextureFormat::kRg16f, kSize);
     const gpu::RenderTarget target({&made});
-    gpu::Program pass = library_.fragmentPass("pipeline/marks/shaders/gradient.frag");
+    gpu::Program pass = library_.fragmentPass("pipeline/marks/tensors/shaders/gradient.frag");
     pass.use()
         .texture("picture", picture)
         .texture("ids", noIds)

@@ -14,7 +14,7 @@
 
 #include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/marks/marks_shaders.h"
-#include "pipeline/marks/tensor_field.h"
+#include "pipeline/marks/tensors/tensor_field.h"
 #include "pipeline/scene/scene_shaders.h"
 #include "tests/support/gl_test.h"
 

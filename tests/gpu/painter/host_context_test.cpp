@@ -3,8 +3,8 @@
 
 #include <gmock/gmock.h>
 
-#include "pipeline/gpu/host_state.h"
-#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/programs/host_state.h"
+#include "pipeline/gpu/programs/program.h"
 #include "tests/gpu/painter/painter_fixture.h"
 #include "tests/support/gl_test.h"
 

@@ -1,5 +1,5 @@
 // Programs that run over lists do the same whichever way they are dispatched.
-#include "pipeline/gpu/list_dispatch.h"
+#include "pipeline/gpu/programs/list_dispatch.h"
 
 #include <memory>
 #include <variant>

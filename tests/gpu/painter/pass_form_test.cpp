@@ -1,5 +1,5 @@
 // Full-screen passes in their compute form paint what their fragment shaders do.
-#include "pipeline/gpu/pass_form.h"
+#include "pipeline/gpu/programs/pass_form.h"
 
 #include <cstdlib>
 #include <variant>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/cameras/synthetic/synthetic_camera.h"
-#include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/context/egl_context.h"
 #include "tests/gpu/painter/painter_fixture.h"
 
 namespace pleinair {

@@ -12,9 +12,9 @@
 #include <gmock/gmock.h>
 
 #include "pipeline/gpu/render_target.h"
-#include "pipeline/marks/layer_textures.h"
-#include "pipeline/marks/motion_layers.h"
-#include "pipeline/marks/segment_map.h"
+#include "pipeline/marks/movers/layer_textures.h"
+#include "pipeline/marks/movers/motion_layers.h"
+#include "pipeline/marks/tensors/segment_map.h"
 #include "pipeline/styles/strokes/stroke_borders.h"
 #include "tests/gpu/marks/wall_and_disc.h"
 #include "tests/gpu/painterly/painterly_fixture.h"
@@ -24,7 +24,7 @@
 namespace pleinair::styles {
 namespace {
 
-// As marks/shaders/stroke_border.glsl packs them.
+// As marks/strokes/shaders/stroke_border.glsl packs them.
 constexpr unsigned kLabelBits = 13;
 constexpr std::uint32_t kLabelMask = (1U << kLabelBits) - 1U;
 constexpr double kShareStep = 0.5 / 31.0 + 1e-6;

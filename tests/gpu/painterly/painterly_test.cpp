@@ -7,7 +7,7 @@
 
 #include <gmock/gmock.h>
 
-#include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/anchors/anchor_set.h"
 #include "pipeline/styles/painterly/painterly_parameters.h"
 #include "pipeline/styles/strokes/brushes.h"
 #include "tests/gpu/painterly/painterly_fixture.h"

@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 
 #include "pipeline/marks/motion_field.h"
-#include "pipeline/marks/motion_layers.h"
+#include "pipeline/marks/movers/motion_layers.h"
 #include "tests/gpu/marks/wall_and_disc.h"
 #include "tests/gpu/painterly/painterly_fixture.h"
 

@@ -13,8 +13,8 @@
 #include <gmock/gmock.h>
 
 #include "pipeline/gpu/render_target.h"
-#include "pipeline/marks/layer_textures.h"
-#include "pipeline/marks/segment_map.h"
+#include "pipeline/marks/movers/layer_textures.h"
+#include "pipeline/marks/tensors/segment_map.h"
 #include "pipeline/tracking/segments/image_segmenter.h"
 #include "tests/gpu/painterly/painterly_fixture.h"
 #include "tests/gpu/painterly/spill.h"

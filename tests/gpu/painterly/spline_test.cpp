@@ -14,7 +14,7 @@
 #include "pipeline/gpu/buffer.h"
 #include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/gpu/handle.h"
-#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/programs/program.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/styles/painterly/painterly_shaders.h"

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/error.h"
-#include "pipeline/gpu/frame_upload.h"
+#include "pipeline/gpu/frames/frame_upload.h"
 #include "pipeline/present/present_shaders.h"
 #include "tests/oracles/frame_oracle.h"
 #include "tests/support/gl_pictures.h"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/error.h"
-#include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/context/egl_context.h"
 #include "pipeline/procedure/procedure_file.h"
 
 namespace pleinair::app {

@@ -10,7 +10,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "hal/image.h"
-#include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/anchors/anchor_set.h"
 #include "pipeline/measure/baselines/area_sampling.h"
 #include "pipeline/measure/baselines/cell_counts.h"
 #include "pipeline/scene/render/ar_frame_renderer.h"

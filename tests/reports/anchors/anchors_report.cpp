@@ -23,7 +23,7 @@
 
 #include "hal/error.h"
 #include "hal/media/png_file.h"
-#include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/context/egl_context.h"
 #include "pipeline/scene/description/model_source.h"
 #include "tests/reports/anchors/anchor_stage.h"
 #include "tests/reports/anchors/drift_report.h"

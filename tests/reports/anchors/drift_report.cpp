@@ -22,7 +22,7 @@
 #include "hal/cameras/synthetic/world/workbench.h"
 #include "hal/clock.h"
 #include "pipeline/gpu/gpu_shaders.h"
-#include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/anchors/anchor_set.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/scene/render/ar_frame_renderer.h"
 #include "pipeline/scene/scene_shaders.h"

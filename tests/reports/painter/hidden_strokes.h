@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "hal/image.h"
-#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/programs/shader_library.h"
 
 namespace pleinair {
 

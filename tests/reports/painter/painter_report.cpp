@@ -21,7 +21,7 @@
 #include "hal/error.h"
 #include "hal/media/picture_file.h"
 #include "hal/media/png_file.h"
-#include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/context/egl_context.h"
 #include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/scene/scene_shaders.h"

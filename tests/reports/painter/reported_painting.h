@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 
 #include "hal/image.h"
-#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/styles/painterly/painterly.h"
 #include "tests/gpu/marks/stroke_fixture.h"
 

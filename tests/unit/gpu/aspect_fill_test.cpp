@@ -1,4 +1,4 @@
-#include "pipeline/gpu/aspect_fill.h"
+#include "pipeline/gpu/images/aspect_fill.h"
 
 #include <array>
 

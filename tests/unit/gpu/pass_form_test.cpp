@@ -1,4 +1,4 @@
-#include "pipeline/gpu/pass_form.h"
+#include "pipeline/gpu/programs/pass_form.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/error.h"
-#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/programs/shader_library.h"
 
 namespace pleinair::gpu {
 namespace {

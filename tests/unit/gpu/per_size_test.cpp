@@ -1,4 +1,4 @@
-#include "pipeline/gpu/per_size.h"
+#include "pipeline/gpu/images/per_size.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The interface that is parsed from a shader's text. Needs no GPU.
-#include "pipeline/gpu/shader_interface.h"
+#include "pipeline/gpu/programs/shader_interface.h"
 
 #include <gmock/gmock.h>
 

@@ -12,8 +12,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/gpu/shader_interface.h"
-#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/programs/shader_interface.h"
+#include "pipeline/gpu/programs/shader_library.h"
 
 namespace pleinair::support {
 namespace {

@@ -1,4 +1,4 @@
-#include "pipeline/runtime/caption.h"
+#include "pipeline/runtime/output/caption.h"
 
 #include <algorithm>
 #include <cstdint>

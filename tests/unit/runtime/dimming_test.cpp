@@ -1,6 +1,6 @@
 // A display that is dimmed, from the painter's pictures to the pixels that the card scans out,
 // under a stepped clock.
-#include "pipeline/runtime/dimming.h"
+#include "pipeline/runtime/output/dimming.h"
 
 #include <algorithm>
 #include <chrono>

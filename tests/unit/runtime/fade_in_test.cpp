@@ -1,4 +1,4 @@
-#include "pipeline/runtime/fade_in.h"
+#include "pipeline/runtime/output/fade_in.h"
 
 #include <algorithm>
 #include <chrono>

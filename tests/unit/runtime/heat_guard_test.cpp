@@ -1,5 +1,5 @@
 // What heat does to the quality: from the kernel's files to the level in force.
-#include "pipeline/runtime/heat_guard.h"
+#include "pipeline/runtime/control/heat_guard.h"
 
 #include <chrono>
 #include <optional>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/machine/machine_state.h"
-#include "pipeline/runtime/quality_governor.h"
+#include "pipeline/runtime/control/quality_governor.h"
 #include "tests/support/fake_machine.h"
 
 namespace pleinair::runtime {

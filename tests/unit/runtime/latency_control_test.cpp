@@ -1,4 +1,4 @@
-#include "pipeline/runtime/latency_control.h"
+#include "pipeline/runtime/control/latency_control.h"
 
 #include <gtest/gtest.h>
 

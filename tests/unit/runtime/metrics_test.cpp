@@ -1,4 +1,4 @@
-#include "pipeline/runtime/metrics.h"
+#include "pipeline/runtime/status/metrics.h"
 
 #include <fstream>
 #include <iterator>

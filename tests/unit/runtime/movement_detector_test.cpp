@@ -1,4 +1,4 @@
-#include "pipeline/runtime/movement_detector.h"
+#include "pipeline/runtime/capture/movement_detector.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,5 +1,5 @@
 // One output's stage under a stepped clock: failures, reopening, skipping.
-#include "pipeline/runtime/output_stage.h"
+#include "pipeline/runtime/output/output_stage.h"
 
 #include <algorithm>
 #include <chrono>

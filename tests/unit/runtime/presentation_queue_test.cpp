@@ -1,4 +1,4 @@
-#include "pipeline/runtime/presentation_queue.h"
+#include "pipeline/runtime/output/presentation_queue.h"
 
 #include <gtest/gtest.h>
 

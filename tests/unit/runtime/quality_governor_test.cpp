@@ -1,4 +1,4 @@
-#include "pipeline/runtime/quality_governor.h"
+#include "pipeline/runtime/control/quality_governor.h"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "pipeline/runtime/status_text.h"
+#include "pipeline/runtime/status/status_text.h"
 
 #include <regex>
 #include <set>

@@ -7,7 +7,7 @@
 //          paper's relief is seen; mover_labels.glsl's; pixelsOfFull; frame, normalFocus if hasFocus.
 // Outputs: RGBA8, sRGB-coded, opaque.
 // Precision: highp for places.
-#include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/movers/shaders/mover_labels.glsl"
 #include "pipeline/styles/substrate/shaders/substrate.glsl"
 uniform sampler2D ink;
 uniform sampler2D contours;

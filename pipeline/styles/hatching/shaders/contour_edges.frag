@@ -5,7 +5,7 @@
 //          which is the narrower Gaussian's width.
 // Outputs: RG16F: the difference, in luma.
 // Precision: highp.
-#include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/movers/shaders/mover_labels.glsl"
 #include "pipeline/styles/hatching/shaders/contour_field.glsl"
 uniform sampler2D luma;
 uniform float step_;

@@ -11,7 +11,7 @@
 //          dark (light, in inverted looks).
 // Precision: highp.
 #include "pipeline/marks/shaders/colour_difference.glsl"
-#include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/movers/shaders/mover_labels.glsl"
 #include "pipeline/styles/hatching/shaders/contour_field.glsl"
 #ifdef MODELS
 #include "pipeline/scene/render/shaders/object_id.glsl"

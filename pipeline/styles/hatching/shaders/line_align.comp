@@ -8,8 +8,8 @@
 // Outputs: shifts (RGBA32F, a texel a slot: line_shift.glsl): px. One invocation per anchor.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
-#include "pipeline/marks/shaders/anchor.glsl"
-#include "pipeline/marks/shaders/point_bins.glsl"
+#include "pipeline/marks/anchors/shaders/anchor.glsl"
+#include "pipeline/marks/anchors/shaders/point_bins.glsl"
 #include "pipeline/styles/hatching/shaders/line.glsl"
 #include "pipeline/styles/hatching/shaders/line_past.glsl"
 #include "pipeline/styles/hatching/shaders/line_shift.glsl"

@@ -8,8 +8,8 @@
 // Outputs: instances (long_instance.glsl). One invocation per anchor.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
-#include "pipeline/marks/shaders/anchor.glsl"
-#include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/anchors/shaders/anchor.glsl"
+#include "pipeline/marks/movers/shaders/mover_labels.glsl"
 #include "pipeline/scene/render/shaders/surface_form.glsl"
 #include "pipeline/styles/hatching/shaders/line.glsl"
 #include "pipeline/styles/strokes/shaders/long_instance.glsl"

@@ -1,10 +1,10 @@
 // Purpose: what each line lies on, and anchors as points for their neighbours to find
-//          (marks/point_bins.h).
+//          (marks/anchors/point_bins.h).
 // Inputs:  anchors, slots of them; line_support.glsl's; anew: lines have no past.
 // Outputs: lines: label; points, whose penalty is here that label, and kJustBorn of new ones. One
 //          invocation per anchor.
 // Precision: integers.
-#include "pipeline/marks/shaders/point.glsl"
+#include "pipeline/marks/anchors/shaders/point.glsl"
 #include "pipeline/styles/hatching/shaders/line.glsl"
 #include "pipeline/styles/hatching/shaders/line_shift.glsl"
 #include "pipeline/styles/hatching/shaders/line_support.glsl"

@@ -3,8 +3,8 @@
 // Inputs:  forms and ids (ArFrame) if hasObjects, their pixelsOfFull; mover_labels.glsl's.
 // Outputs: a patch's label (surface_form.glsl); 0 for the background, kMoverLabel for all movers.
 // Precision: integers.
-#include "pipeline/marks/shaders/anchor.glsl"
-#include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/anchors/shaders/anchor.glsl"
+#include "pipeline/marks/movers/shaders/mover_labels.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/scene/render/shaders/surface_form.glsl"
 uniform highp usampler2D ids;

@@ -8,8 +8,8 @@
 // Outputs: lines. One invocation per anchor.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
-#include "pipeline/marks/shaders/anchor.glsl"
-#include "pipeline/marks/shaders/stroke_history.glsl"
+#include "pipeline/marks/anchors/shaders/anchor.glsl"
+#include "pipeline/marks/strokes/shaders/stroke_history.glsl"
 #include "pipeline/styles/hatching/shaders/line.glsl"
 #include "pipeline/styles/hatching/shaders/line_past.glsl"
 #include "pipeline/styles/hatching/shaders/line_shift.glsl"

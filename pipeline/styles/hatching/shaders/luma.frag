@@ -3,7 +3,7 @@
 // Inputs:  picture (marks::FilteredFrame).
 // Outputs: R8: sRGB-coded luma.
 // Precision: mediump suffices.
-#include "pipeline/gpu/shaders/luma.glsl"
+#include "pipeline/gpu/images/shaders/luma.glsl"
 uniform sampler2D picture;
 layout(location = 0) out float luma;
 

@@ -5,8 +5,8 @@
 // Outputs: RGBA16F: the background's luma, premultiplied by the share of the 2x2 pixels where it is
 //          known, which follows; the same of models and movers.
 // Precision: highp for places.
-#include "pipeline/gpu/shaders/luma.glsl"
-#include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/gpu/images/shaders/luma.glsl"
+#include "pipeline/marks/movers/shaders/mover_labels.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 uniform sampler2D lumas;
 uniform highp usampler2D ids;

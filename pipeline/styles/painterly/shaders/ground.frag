@@ -7,9 +7,9 @@
 //          mixture.glsl's if isLimited.
 // Outputs: 0: sRGB-coded colour; 1: the wash's height.
 // Precision: mediump suffices, except for places.
-#include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/movers/shaders/mover_labels.glsl"
 #include "pipeline/marks/shaders/mixture.glsl"
-#include "pipeline/marks/shaders/stroke_border.glsl"
+#include "pipeline/marks/strokes/shaders/stroke_border.glsl"
 uniform highp usampler2D borders;
 uniform sampler2D paint;
 uniform sampler2D moverPaint;

@@ -10,8 +10,8 @@ uniform vec2 size;
 uniform vec2 pixelsOfFull;
 uniform int view;
 layout(location = 0) out vec4 colour;
-#include "pipeline/marks/shaders/mover_labels.glsl"
-#include "pipeline/marks/shaders/mover_shares.glsl"
+#include "pipeline/marks/movers/shaders/mover_labels.glsl"
+#include "pipeline/marks/movers/shaders/mover_shares.glsl"
 
 const float kSureSeconds = 0.2;     // seen to move for so long: motion_layers.glsl's kMatureSeconds
 const vec2 kRestSeconds = vec2(0.1, 1.0);

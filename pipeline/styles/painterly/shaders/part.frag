@@ -4,7 +4,7 @@
 // Outputs: 0 background, 1 models, 2 movers: RGBA16F, premultiplied: alpha is the share of the 2x2
 //          pixels.
 // Precision: highp for places.
-#include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/movers/shaders/mover_labels.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 uniform sampler2D picture;
 uniform highp usampler2D ids;

@@ -9,8 +9,8 @@
 //          pixelsOfFull; palette: saturation, warmth.
 // Outputs: RGBA8, sRGB-coded, opaque.
 // Precision: highp for places.
-#include "pipeline/gpu/shaders/luma.glsl"
-#include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/gpu/images/shaders/luma.glsl"
+#include "pipeline/marks/movers/shaders/mover_labels.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/styles/strokes/shaders/mover_border.glsl"
 #include "pipeline/styles/strokes/shaders/paint_light.glsl"

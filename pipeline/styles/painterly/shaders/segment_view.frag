@@ -3,7 +3,7 @@
 // Inputs:  picture; borders (borders.glsl) if hasBorders; size: of the frame.
 // Outputs: RGBA8, sRGB-coded, opaque. Precision: highp for places.
 #include "pipeline/gpu/shaders/hash.glsl"
-#include "pipeline/marks/shaders/stroke_border.glsl"
+#include "pipeline/marks/strokes/shaders/stroke_border.glsl"
 uniform sampler2D picture;
 uniform highp usampler2D borders;
 uniform bool hasBorders;

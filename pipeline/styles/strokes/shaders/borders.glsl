@@ -12,16 +12,16 @@
 // Outputs: functions; borders are packed as in stroke_border.glsl.
 // Precision: integers; highp for places.
 #include "pipeline/scene/render/shaders/surface_form.glsl"
-#include "pipeline/marks/shaders/stroke_border.glsl"
+#include "pipeline/marks/strokes/shaders/stroke_border.glsl"
 uniform highp sampler2D picture;
 uniform vec2 size;
 uniform vec2 pixelsOfFull;
 #include "pipeline/marks/shaders/colour_difference.glsl"
-#include "pipeline/marks/shaders/mover_places.glsl"
-#include "pipeline/marks/shaders/mover_matte.glsl"
+#include "pipeline/marks/movers/shaders/mover_places.glsl"
+#include "pipeline/marks/movers/shaders/mover_matte.glsl"
 #ifndef MOVERS_ONLY
 #include "pipeline/scene/render/shaders/depth_step.glsl"
-#include "pipeline/marks/shaders/segments.glsl"
+#include "pipeline/marks/tensors/shaders/segments.glsl"
 uniform highp usampler2D forms;
 uniform highp sampler2D depth;
 uniform highp usampler2D before;

@@ -6,7 +6,7 @@
 //          palette has hues of its own; targetSize: px.
 // Outputs: the share of a stroke's paint that is left at a fragment.
 // Precision: mediump suffices, except for places.
-#include "pipeline/gpu/shaders/luma.glsl"
+#include "pipeline/gpu/images/shaders/luma.glsl"
 #include "pipeline/marks/shaders/colour_difference.glsl"
 uniform sampler2D picture;
 uniform float colourClip;

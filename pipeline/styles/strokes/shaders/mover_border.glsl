@@ -4,7 +4,7 @@
 // Inputs:  borders (borders.glsl); colours: the paint.
 // Outputs: functions.
 // Precision: integers; that of colours.
-#include "pipeline/marks/shaders/stroke_border.glsl"
+#include "pipeline/marks/strokes/shaders/stroke_border.glsl"
 uniform highp usampler2D borders;
 
 // The paint of a pixel: at a mover's border, mixed with that of the nearest pixels of the other side.

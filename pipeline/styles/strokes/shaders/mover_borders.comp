@@ -4,7 +4,7 @@
 // Inputs:  borders.glsl's; busy_blocks.glsl's.
 // Outputs: borders (R32UI). A group of invocations per block of the second list of busy_blocks.glsl.
 // Precision: integers; highp for places.
-#include "pipeline/marks/shaders/busy_blocks.glsl"
+#include "pipeline/marks/movers/shaders/busy_blocks.glsl"
 #include "pipeline/styles/strokes/shaders/borders.glsl"
 layout(local_size_x = 16, local_size_y = 8) in;
 layout(r32ui, binding = 0) writeonly uniform highp uimage2D borders;

@@ -5,7 +5,7 @@
 // Inputs:  instances, instanceCount of them in drawn; bend: px that a quad's chord may deviate.
 // Outputs: plans: breaks, and whether the stroke is carried. One invocation per stroke.
 // Precision: highp.
-#include "pipeline/marks/shaders/stroke_label.glsl"
+#include "pipeline/marks/strokes/shaders/stroke_label.glsl"
 #include "pipeline/styles/strokes/shaders/strip_spline.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 1) readonly buffer Drawn { DrawCommand drawn; };

@@ -4,7 +4,7 @@
 //          mover_border.glsl mixes both sides afterwards: at a mover's border all or nothing; and
 //          whether it is such a border.
 // Precision: integers.
-#include "pipeline/marks/shaders/stroke_border.glsl"
+#include "pipeline/marks/strokes/shaders/stroke_border.glsl"
 uniform usampler2D borders;
 flat in uint label;
 

@@ -3,7 +3,7 @@
 // Inputs:  instanceCount strokes in drawn; plans: breaks; room: vertices that there is room for, eight
 //          for each stroke at least; even: if above 0, the number of quads of every strip; clips:
 //          whether strokes are clipped; byMovers: if so, by movers alone; busyWord: then the word of
-//          busyWords (marks/busy_blocks.h) that tells whether there are any.
+//          busyWords (marks/movers/busy_blocks.h) that tells whether there are any.
 // Outputs: plans: first, and fewer breaks of all strokes where there is not room for all vertices;
 //          commands: glDrawArraysIndirect's of what is not clipped and of what is: all strokes but
 //          carried ones are the one or the other; and of carried ones. A stroke that a mover has

@@ -2,7 +2,7 @@
 // Inputs:  marks::StrokeSet's instances; quads: of the strip.
 // Outputs: for the strip's vertex gl_VertexID: its place on the spline and the direction there.
 // Precision: highp.
-#include "pipeline/marks/shaders/spline.glsl"
+#include "pipeline/marks/strokes/shaders/spline.glsl"
 layout(location = 0) in vec4 first;
 layout(location = 1) in vec4 second;
 layout(location = 2) in vec4 third;

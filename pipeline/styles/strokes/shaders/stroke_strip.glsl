@@ -3,11 +3,11 @@
 // Inputs, outputs: px of the full image.
 // Precision: highp.
 #include "pipeline/gpu/shaders/draw_command.glsl"
-#include "pipeline/marks/shaders/spline.glsl"
+#include "pipeline/marks/strokes/shaders/spline.glsl"
 #ifdef LONG
 #include "pipeline/styles/strokes/shaders/long_instance.glsl"
 #else
-#include "pipeline/marks/shaders/stroke_instance.glsl"
+#include "pipeline/marks/strokes/shaders/stroke_instance.glsl"
 #endif
 
 // The knots at which a stroke's strip is divided into quads, and its first vertex.

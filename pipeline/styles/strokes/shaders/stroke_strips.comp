@@ -8,7 +8,7 @@
 // Outputs: vertices in the layout of stroke.vert, the sides kSmooth px further out, for smooth
 //          edges. One invocation per stroke.
 // Precision: highp.
-#include "pipeline/marks/shaders/stroke_label.glsl"
+#include "pipeline/marks/strokes/shaders/stroke_label.glsl"
 #include "pipeline/styles/strokes/shaders/strip_spline.glsl"
 layout(local_size_x = 64) in;
 struct Vertex {

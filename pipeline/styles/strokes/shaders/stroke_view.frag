@@ -2,7 +2,7 @@
 // Inputs:  stroke_view.vert's; view: of VIEW_LAYERS (whole strokes in their layer's colour),
 //          VIEW_SKELETONS (in that colour), VIEW_ANCHORS (by age); layer: its colour.
 // Outputs: 0: sRGB-coded, premultiplied; 1: unused. Precision: mediump suffices.
-#include "pipeline/gpu/shaders/luma.glsl"
+#include "pipeline/gpu/images/shaders/luma.glsl"
 uniform int view;
 uniform vec3 layer;
 in float across;

@@ -9,7 +9,7 @@
 //          which a place is not far; patience and passed: s; atOnce: without rest.
 // Outputs: seeds; meansNow (RGBA16F, if wantsMeans): linear mean; 1 where the cell has pixels.
 // Precision: sums are exact.
-#include "pipeline/marks/shaders/point.glsl"
+#include "pipeline/marks/anchors/shaders/point.glsl"
 #include "pipeline/styles/watercolor/shaders/cell_sums.glsl"
 #include "pipeline/styles/watercolor/shaders/seed.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"

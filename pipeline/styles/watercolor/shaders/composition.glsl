@@ -4,7 +4,7 @@
 //          threshold, and the parameters of the same names (watercolor_parameters.h).
 // Outputs: sRGB-coded colours.
 // Precision: highp for places; less would suffice for colours.
-#include "pipeline/gpu/shaders/luma.glsl"
+#include "pipeline/gpu/images/shaders/luma.glsl"
 #include "pipeline/styles/watercolor/shaders/density.glsl"
 #include "pipeline/styles/substrate/shaders/substrate.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"

@@ -7,7 +7,7 @@
 //          position, 0 all dark, 1 all light, as 0.5 x + 0.25; A of the light one: hardness of the
 //          border.
 // Precision: highp.
-#include "pipeline/gpu/shaders/luma.glsl"
+#include "pipeline/gpu/images/shaders/luma.glsl"
 #include "pipeline/styles/watercolor/shaders/density.glsl"
 uniform sampler2D guide;
 uniform sampler2D darkPigment;

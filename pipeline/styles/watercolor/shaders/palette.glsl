@@ -2,7 +2,7 @@
 // Inputs:  sRGB-coded colours; `vividness` and `luminosity` in [0, 1] (watercolor_parameters.h).
 // Outputs: sRGB-coded colours.
 // Precision: mediump suffices.
-#include "pipeline/gpu/shaders/luma.glsl"
+#include "pipeline/gpu/images/shaders/luma.glsl"
 const vec3 kDarkest = vec3(0.10, 0.11, 0.15);  // an indigo, since no pigment is black
 
 // Transparent paint on white: lights open up towards the paper, darks stay coloured.

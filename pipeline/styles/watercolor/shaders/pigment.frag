@@ -8,7 +8,7 @@
 // Outputs: darkPigment, lightPigment (RGBA8): sRGB-coded; A of the dark one: the light one's share;
 //          A of the light one: the load, 0.5 is normal.
 // Precision: highp.
-#include "pipeline/gpu/shaders/luma.glsl"
+#include "pipeline/gpu/images/shaders/luma.glsl"
 #include "pipeline/styles/substrate/shaders/substrate.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 uniform highp usampler2D tiling;

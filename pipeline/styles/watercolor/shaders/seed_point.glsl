@@ -2,7 +2,7 @@
 // Inputs, outputs: as of marks/point.glsl; the lowest bit of the penalty says whether the seed is on
 //          a mover.
 // Precision: integers are exact; penalties, to two of their units.
-#include "pipeline/marks/shaders/point.glsl"
+#include "pipeline/marks/anchors/shaders/point.glsl"
 
 ivec4 seedPoint(vec2 px, float penalty, int slot, bool onMover) {
   ivec4 point = pointAt(px, penalty, slot);

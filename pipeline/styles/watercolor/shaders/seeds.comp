@@ -8,8 +8,8 @@
 // Outputs: seeds; points (seed_point.glsl); moverGroups: of tile.comp's dispatch for movers: the last
 //          of its three numbers is set to 1 if there is a seed of one.
 // Precision: points are rounded to their lattice.
-#include "pipeline/marks/shaders/anchor.glsl"
-#include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/anchors/shaders/anchor.glsl"
+#include "pipeline/marks/movers/shaders/mover_labels.glsl"
 #include "pipeline/styles/watercolor/shaders/seed.glsl"
 #include "pipeline/styles/watercolor/shaders/seed_point.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"

@@ -5,8 +5,8 @@
 // Outputs: places (RGBA32F): px of the seed and of its anchor; ways (RGBA16F): the source of the
 //          anchor's motion, its age in s, its fade, 1 if its seed is moving.
 // Precision: highp.
-#include "pipeline/marks/shaders/anchor.glsl"
-#include "pipeline/marks/shaders/point.glsl"
+#include "pipeline/marks/anchors/shaders/anchor.glsl"
+#include "pipeline/marks/anchors/shaders/point.glsl"
 #include "pipeline/styles/watercolor/shaders/seed.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 layout(local_size_x = 64) in;

@@ -4,7 +4,7 @@
 // Inputs:  guide (guide.frag), tiling (tiling_word.glsl, twice the guide's size).
 // Outputs: moments (moments.glsl).
 // Precision: integers, so that order does not matter; up to 4096 pixels per cell.
-#include "pipeline/gpu/shaders/pixel_block.glsl"
+#include "pipeline/gpu/images/shaders/pixel_block.glsl"
 #include "pipeline/styles/watercolor/shaders/moments.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 layout(local_size_x = 16, local_size_y = 4) in;

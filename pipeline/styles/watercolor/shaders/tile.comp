@@ -5,7 +5,7 @@
 //          block.
 // Defines: has_objects.glsl's.
 // Inputs:  picture (sRGB-coded), ids (R32UI) if hasObjects; sorted, starts, bins, binPixels: the
-//          seeds (seed_point.glsl, marks/point_bins.h); moverGroups (seeds.comp), mover_labels.glsl's
+//          seeds (seed_point.glsl, marks/anchors/point_bins.h); moverGroups (seeds.comp), mover_labels.glsl's
 //          and pixelsOfFull; ofMovers: whether movers are tiled, or all else; alpha, beta, threshold;
 //          wantsMeans: whether colours are summed, too.
 // Outputs: tiling (R32UI, tiling_word.glsl), sums (cell_sums.glsl).
@@ -13,10 +13,10 @@
 //          the first in `sorted` wins. Distances of more than about 100 px (fewer, where seeds are
 //          crowded) are rounded, so that they fit beside the number of a seed.
 #include "pipeline/gpu/shaders/colour.glsl"
-#include "pipeline/gpu/shaders/luma.glsl"
-#include "pipeline/gpu/shaders/pixel_block.glsl"
-#include "pipeline/marks/shaders/mover_labels.glsl"
-#include "pipeline/marks/shaders/point_bins.glsl"
+#include "pipeline/gpu/images/shaders/luma.glsl"
+#include "pipeline/gpu/images/shaders/pixel_block.glsl"
+#include "pipeline/marks/movers/shaders/mover_labels.glsl"
+#include "pipeline/marks/anchors/shaders/point_bins.glsl"
 #include "pipeline/scene/render/shaders/has_objects.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/styles/watercolor/shaders/cell_sums.glsl"

@@ -1,6 +1,6 @@
 // Purpose: a pixel of the tiling, packed into one R32UI word: its cell, whether it is an edge pixel
 //          (thesis eq. 4), and the strength of its edge.
-// Inputs, outputs: slots of the cells' anchors (marks/anchor_set.h); strengths in [0, 1].
+// Inputs, outputs: slots of the cells' anchors (marks/anchors/anchor_set.h); strengths in [0, 1].
 // Precision: highp; integers are exact.
 // Layout:  bits 0..21 slot, 22 edge, 24..31 square root of the strength in 1/255.
 const uint kSlotBits = 0x3FFFFFu;

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "hal/pixel_format.h"
+#include "pipeline/gpu/programs/program.h"
+#include "pipeline/gpu/programs/shader_library.h"
+#include "pipeline/gpu/texture.h"
+#include "pipeline/marks/motion_field.h"
+#include "pipeline/marks/movers/busy_blocks.h"
+
+namespace pleinair::marks {
+
+/// The plain parts of people who stay where they are and move there: faces, hair, clothes. They
+/// look as what MotionLayers remembers of these places, but before a camera that stands their
+/// motion, added up over time, shows that they are no background. All calls on the thread of the
+/// GL context that was current at construction.
+class InPlaceMovers {
+ public:
+  /// `blocks` is the number of blocks of MotionLayers. Throws hal::Failure if GPU memory runs out.
+  InPlaceMovers(const gpu::ShaderLibrary& library, hal::FrameSize blocks);
+
+  /// Adds a frame, whose cells have been compared, and marks the blocks that have moved as busy.
+  /// `stands`: whether the camera has stood since the previous frame; else all is forgotten.
+  void follow(const MotionField& field, hal::FrameSize full, const gpu::Texture& candidates,
+              const gpu::Texture& activity, const BusyBlocks& blocks, bool stands,
+              float stepSeconds);
+
+  /// Writes to `inPlace`, RGBA8, in the cells of busy blocks: R: 1 in such a part.
+  void find(const gpu::Texture& candidates, const BusyBlocks& blocks, const gpu::Texture& inPlace);
+
+ private:
+  gpu::Program follow_;
+  gpu::Program find_;
+  std::array<gpu::Texture, 2> displacements_;
+  std::size_t now_ = 0;
+};
+
+}  // namespace pleinair::marks
