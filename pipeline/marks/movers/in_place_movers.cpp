@@ -14,13 +14,16 @@ constexpr float kLeastDisplacement = 1.5F / 640.0F;
 constexpr GLbitfield kStored = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                                GL_SHADER_STORAGE_BARRIER_BIT;
 
+gpu::Texture displacementOf(hal::FrameSize blocks) {
+  return {gpu::TextureFormat::kRgba16f, blocks, gpu::TextureFilter::kLinear};
+}
+
 }  // namespace
 
 InPlaceMovers::InPlaceMovers(const gpu::ShaderLibrary& library, hal::FrameSize blocks)
     : follow_(library.compute(kShaders + "mover_displacement.comp")),
       find_(library.compute(kShaders + "mover_in_place.comp")),
-      displacements_{gpu::Texture(gpu::TextureFormat::kRgba16f, blocks),
-                     gpu::Texture(gpu::TextureFormat::kRgba16f, blocks)} {}
+      displacements_{displacementOf(blocks), displacementOf(blocks)} {}
 
 void InPlaceMovers::follow(const MotionField& field, hal::FrameSize full,
                            const gpu::Texture& candidates, const gpu::Texture& activity,

@@ -27,6 +27,9 @@ class InPlaceMovers {
               const gpu::Texture& activity, const BusyBlocks& blocks, bool stands,
               float stepSeconds);
 
+  /// Of the last frame (shaders/mover_displacement.glsl): RGBA16F, LINEAR; a texel is a block.
+  const gpu::Texture& displacements() const { return displacements_.at(now_); }
+
   /// Writes to `inPlace`, RGBA8, in the cells of busy blocks: R: 1 in such a part.
   void find(const gpu::Texture& candidates, const BusyBlocks& blocks, const gpu::Texture& inPlace);
 

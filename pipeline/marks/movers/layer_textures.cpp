@@ -34,4 +34,8 @@ const gpu::Texture& LayerTextures::moverMotionOf(const MotionLayers* layers) con
   return layers != nullptr ? layers->moverMotion() : none_;
 }
 
+const gpu::Texture& LayerTextures::displacementsOf(const MotionLayers* layers) const {
+  return layers != nullptr ? layers->displacements() : none_;
+}
+
 }  // namespace pleinair::marks

@@ -14,13 +14,14 @@ class LayerTextures {
   /// Throws hal::Failure if GPU memory runs out.
   LayerTextures();
 
-  /// MotionLayers::labels(), shares(), background(), activity() and moverMotion(). They belong to
-  /// `layers`, or to this if that is null.
+  /// MotionLayers::labels(), shares(), background(), activity(), moverMotion() and displacements().
+  /// They belong to `layers`, or to this if that is null.
   const gpu::Texture& labelsOf(const MotionLayers* layers) const;
   const gpu::Texture& sharesOf(const MotionLayers* layers) const;
   const gpu::Texture& backgroundOf(const MotionLayers* layers) const;
   const gpu::Texture& activityOf(const MotionLayers* layers) const;
   const gpu::Texture& moverMotionOf(const MotionLayers* layers) const;
+  const gpu::Texture& displacementsOf(const MotionLayers* layers) const;
 
  private:
   gpu::Texture none_;

@@ -388,6 +388,10 @@ const gpu::Texture& MotionLayers::moverMotion() const {
   return state_->moverMotion();
 }
 
+const gpu::Texture& MotionLayers::displacements() const {
+  return state_->inPlace.displacements();
+}
+
 bool MotionLayers::isStanding() const {
   return state_->isStanding;
 }

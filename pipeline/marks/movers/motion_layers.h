@@ -91,6 +91,9 @@ class MotionLayers {
   /// the full image, times their weight; B: that weight.
   const gpu::Texture& moverMotion() const;
   static constexpr int kBlockCells = 8;
+  /// RGBA16F, LINEAR; a texel is a block: how far what is seen there has gone lately, before a
+  /// camera that stands (shaders/mover_displacement.glsl).
+  const gpu::Texture& displacements() const;
 
   /// Whether the camera has stood since the previous frame, so that all the background rests; and
   /// whether it has within the last half second, so that one nudge changes no strokes.

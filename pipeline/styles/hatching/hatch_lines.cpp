@@ -25,6 +25,9 @@ constexpr double kMoverShapeSeconds = 0.15;
 constexpr double kMoverAlignSeconds = 1.0;
 /// The longest in which a line of a mover that is too many goes.
 constexpr hal::Duration kMoverFade = std::chrono::milliseconds(450);
+/// Displacements by which movers go through the picture, of its longer side: 9 to 21 px of 640,
+/// about 22 to 52 px a second. Slower ones move in place.
+constexpr glm::vec2 kGoes{9.0F / 640.0F, 21.0F / 640.0F};
 /// Of a first frame, from random places.
 constexpr int kFirstSteps = 24;
 constexpr float kFirstPast = 0.3F;
@@ -102,13 +105,21 @@ void HatchLines::update(const scene::ArFrame& frame, const Inputs& inputs, const
   layOut(frame, inputs, rule);
 }
 
-void HatchLines::bindField(gpu::Program& program, const marks::TensorField& field,
+void HatchLines::bindField(gpu::Program& program, const scene::ArFrame& frame, const Inputs& inputs,
                            const HatchRule& rule, std::size_t level) const {
+  const marks::TensorField& field = *inputs.field;
+  const gpu::Texture& displacements = layerTextures_.displacementsOf(inputs.movers);
+  const hal::FrameSize blocks = displacements.size();
+  constexpr float kBlockPx = marks::MotionLayers::kBlockCells * marks::MotionLayers::kCellPixels;
+  const auto side = static_cast<float>(std::max(frame.full().width, frame.full().height));
   program.texture("field", field.resolved(level))
       .texture("modelField", field.resolvedModels(level))
       .texture("moverField", field.movers())
+      .texture("displacements", displacements)
       .set("fieldScale", field.textureScale(level))
       .set("moverScale", field.textureScale(0))
+      .set("blockScale", 1.0F / (kBlockPx * glm::vec2(blocks.width, blocks.height)))
+      .set("goes", side * kGoes)
       .set("slope", rule.slope)
       .set("lead", rule.lead)
       .set("turn", glm::vec2(std::cos(rule.turnRad), std::sin(rule.turnRad)));
@@ -154,7 +165,7 @@ void HatchLines::align(const scene::ArFrame& frame, const Inputs& inputs, const 
         .set("reach", static_cast<float>(kReachSpacings * plan_.spacingPx))
         .set("past", isAnew ? glm::vec3(kFirstPast)
                             : pastOf(step, kAlignSeconds, kMoverAlignSeconds, inputs.movers));
-    bindField(align_, *inputs.field, rule, level);
+    bindField(align_, frame, inputs, rule, level);
     align_.dispatch({static_cast<int>(slots_), 1},
                     GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     latest_ = 1 - latest_;
@@ -181,7 +192,7 @@ void HatchLines::trace(const scene::ArFrame& frame, const Inputs& inputs, const 
       .set("past",
            pastOf(step, hal::toSeconds(rule.shapeMemory), kMoverShapeSeconds, inputs.movers));
   bindSupport(trace_, frame, inputs.movers);
-  bindField(trace_, field, rule, level);
+  bindField(trace_, frame, inputs, rule, level);
   bindHatchTone(trace_, frame, *inputs.tone, rule);
   trace_.dispatch({static_cast<int>(slots_), 1}, GL_SHADER_STORAGE_BARRIER_BIT);
 }

@@ -96,8 +96,8 @@ class HatchLines {
   void reset() { anchors_.reset(); }
 
  private:
-  void bindField(gpu::Program& program, const marks::TensorField& field, const HatchRule& rule,
-                 std::size_t level) const;
+  void bindField(gpu::Program& program, const scene::ArFrame& frame, const Inputs& inputs,
+                 const HatchRule& rule, std::size_t level) const;
   void bindSupport(gpu::Program& program, const scene::ArFrame& frame,
                    const marks::MotionLayers* movers) const;
   void align(const scene::ArFrame& frame, const Inputs& inputs, const HatchRule& rule,

@@ -89,14 +89,15 @@ float sinceMoved(float was, float far, ivec2 block) {
 void main() {
   ivec2 block = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(block, grid))) return;
-  vec4 now = vec4(0.0, 0.0, kNever, 0.0);
+  vec4 now = vec4(0.0, 0.0, kNever, -1.0);
   if (isStanding) {
     vec4 before = texelFetch(earlier, block, 0);
     now.xy = exp(-stepSeconds / kDisplacementSeconds) * before.xy + motionIn(block);
     float far = length(now.xy) / leastDisplacement;
     now.z = sinceMoved(before.z, far, block);
-    if (mayBeInPlace(now) || far > 1.0) now.w = othersIn(block);
-    if (now.w < 0.0 && now.z < kNever) now.z = kNever;
+    float others = mayBeInPlace(now) || far > 1.0 ? othersIn(block) : 0.0;
+    if (others < 0.0 && now.z < kNever) now.z = kNever;
+    now.w = max(others, 0.0);
     if (mayBeInPlace(now)) atomicOr(busyWords[flagsAt(block)], kIsBusy);
   }
   imageStore(displacement, block, now);

@@ -4,7 +4,7 @@
 // Inputs:  texels of the displacement: xy: px of the full image; what is older counts less, with
 //          kDisplacementSeconds. z: how long ago, s, the block was last seen to move slowly; below 0
 //          while it has done so for less than kSureSeconds. w: the share of its cells that are other
-//          content than the background.
+//          content than the background; below 0 where the camera does not stand, and nothing is known.
 // Outputs: functions of them.
 // Precision: highp; stored as half floats.
 const float kDisplacementSeconds = 0.4;
