@@ -1,7 +1,6 @@
 #include "pipeline/engine/frame_luma.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include <fmt/format.h>

@@ -9,6 +9,7 @@
 #include "pipeline/gpu/texture.h"
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/marks/movers/busy_blocks.h"
+#include "pipeline/scene/render/ar_frame.h"
 
 namespace pleinair::marks {
 
@@ -21,21 +22,28 @@ class InPlaceMovers {
   /// `blocks` is the number of blocks of MotionLayers. Throws hal::Failure if GPU memory runs out.
   InPlaceMovers(const gpu::ShaderLibrary& library, hal::FrameSize blocks);
 
+  /// What the camera has done: only while it stands is motion added up; all that was is kept for a
+  /// moment, so that a nudge loses nothing, and then forgotten.
+  struct Camera {
+    bool stands = false;    ///< since the previous frame
+    bool hasStood = false;  ///< until lately
+  };
   /// Adds a frame, whose cells have been compared, and marks the blocks that have moved as busy.
-  /// `stands`: whether the camera has stood since the previous frame; else all is forgotten.
-  void follow(const MotionField& field, hal::FrameSize full, const gpu::Texture& candidates,
-              const gpu::Texture& activity, const BusyBlocks& blocks, bool stands,
+  void follow(const scene::ArFrame& frame, const MotionField& field, const gpu::Texture& candidates,
+              const gpu::Texture& activity, const BusyBlocks& blocks, Camera camera,
               float stepSeconds);
 
-  /// Of the last frame (shaders/mover_displacement.glsl): RGBA16F, LINEAR; a texel is a block.
+  /// Of the last frame (shaders/mover_displacement.glsl): RGBA16F; a texel is a block.
   const gpu::Texture& displacements() const { return displacements_.at(now_); }
 
   /// Writes to `inPlace`, RGBA8, in the cells of busy blocks: R: 1 in such a part.
-  void find(const gpu::Texture& candidates, const BusyBlocks& blocks, const gpu::Texture& inPlace);
+  void find(const scene::ArFrame& frame, const gpu::Texture& candidates, const BusyBlocks& blocks,
+            const gpu::Texture& inPlace);
 
  private:
   gpu::Program follow_;
   gpu::Program find_;
+  gpu::Texture noIds_;
   std::array<gpu::Texture, 2> displacements_;
   std::size_t now_ = 0;
 };

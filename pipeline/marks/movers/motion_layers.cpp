@@ -1,10 +1,8 @@
 #include "pipeline/marks/movers/motion_layers.h"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -278,8 +276,8 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .texture("moverShares", s.shares.at(before))
       .set("motionScale", motionScale);
   s.dispatchBusy(s.compareNear, BlockCommand::kNear);
-  s.inPlace.follow(motion, s.full, s.candidates, s.activities.at(before), s.busyBlocks(),
-                   s.hasPast && motion.isStanding(), step);
+  s.inPlace.follow(frame, motion, s.candidates, s.activities.at(before), s.busyBlocks(),
+                   {.stands = s.hasPast && motion.isStanding(), .hasStood = hasStood()}, step);
   s.bindBusy(s.markBusy.use()).storage("Blocks", s.parts).dispatch(s.blocks(), kStored);
   s.bindBusy(s.listBusy.use()).dispatch({1, 1}, kListed);
   s.findGround.use()
@@ -306,7 +304,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .image("backgroundNow", s.backgrounds.at(s.now), ImageAccess::kWrite)
       .image("activityNow", s.activities.at(s.now), ImageAccess::kWrite)
       .dispatch(s.cells(), kStored);
-  s.inPlace.find(s.candidates, s.busyBlocks(), s.carried);
+  s.inPlace.find(frame, s.candidates, s.busyBlocks(), s.carried);
   s.begin(s.join, frame, motion, step);
   s.bindBusy(s.join)
       .texture("ground", s.ground)

@@ -91,7 +91,7 @@ class MotionLayers {
   /// the full image, times their weight; B: that weight.
   const gpu::Texture& moverMotion() const;
   static constexpr int kBlockCells = 8;
-  /// RGBA16F, LINEAR; a texel is a block: how far what is seen there has gone lately, before a
+  /// RGBA16F; a texel is a block: how far what is seen there has gone lately, before a
   /// camera that stands (shaders/mover_displacement.glsl).
   const gpu::Texture& displacements() const;
 

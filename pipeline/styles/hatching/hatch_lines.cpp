@@ -109,7 +109,6 @@ void HatchLines::bindField(gpu::Program& program, const scene::ArFrame& frame, c
                            const HatchRule& rule, std::size_t level) const {
   const marks::TensorField& field = *inputs.field;
   const gpu::Texture& displacements = layerTextures_.displacementsOf(inputs.movers);
-  const hal::FrameSize blocks = displacements.size();
   constexpr float kBlockPx = marks::MotionLayers::kBlockCells * marks::MotionLayers::kCellPixels;
   const auto side = static_cast<float>(std::max(frame.full().width, frame.full().height));
   program.texture("field", field.resolved(level))
@@ -118,7 +117,7 @@ void HatchLines::bindField(gpu::Program& program, const scene::ArFrame& frame, c
       .texture("displacements", displacements)
       .set("fieldScale", field.textureScale(level))
       .set("moverScale", field.textureScale(0))
-      .set("blockScale", 1.0F / (kBlockPx * glm::vec2(blocks.width, blocks.height)))
+      .set("blockScale", glm::vec2(1.0F / kBlockPx))
       .set("goes", side * kGoes)
       .set("slope", rule.slope)
       .set("lead", rule.lead)

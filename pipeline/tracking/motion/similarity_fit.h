@@ -27,7 +27,7 @@ class SimilarityFit {
     const glm::dvec2 from = from_ / weights_;
     const glm::dvec2 to = to_ / weights_;
     const double squares = squares_ - weights_ * glm::dot(from, from);
-    if (squares <= 0.0) return std::nullopt;
+    if (squares <= 1e-12 * squares_) return std::nullopt;  // no more than rounding
     const glm::dvec2 products =
         products_ - weights_ * PlaneSimilarity::product({from.x, -from.y}, to);
     PlaneSimilarity fit{.linear = products / squares};

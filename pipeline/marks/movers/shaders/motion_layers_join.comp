@@ -269,13 +269,16 @@ void main() {
   bool isCrack = past.g >= 0.0 && isInCrack(sides);
   bool isFilled = mayBeHole && (isCrack || (isStanding && isEnclosed(sides) &&
                                                      isUnlikeInHole(cell, size)));
-  bool isInPlace = !isEverywhere && !isSwitched && texelFetch(inPlace, cell, 0).r > 0.5;
-  isFilled = isFilled || (isInPlace && !isMover);
+  // A plain part does not change, though it moves: it does not rest.
+  if (!isLight && texelFetch(inPlace, cell, 0).r > 0.5) {
+    isFilled = isFilled || !isMover;
+    sides.maturity = max(sides.maturity, 2.0 * kMatureSeconds);
+    changes = 1.0;
+  }
   isMover = isMover || isFilled;
   bool isResting = changes < (isStanding ? kRestingChange : kMovingRestingChange);
   float rest = isMover && isResting ? max(past.g, 0.0) + stepSeconds : 0.0;
   float maturity = isMover ? max(past.b, isFilled ? sides.maturity : past.b) : 0.0;
-  if (isInPlace && isFilled) maturity = max(maturity, 2.0 * kMatureSeconds);
   bool isYoung = isMover && !isFilled && maturity <= kMatureSeconds;
   // What was a mover when the camera began to look, or stood there for long, has left. Flow and the
   // motion of movers reach beyond their outlines: neither makes such a place older. While the camera
@@ -307,6 +310,7 @@ void main() {
     known.a = 0.0;
     isOdd = !hasLeft;
   }
+  past = texelFetch(evidence, cell * reach, 0);  // again: it had no room in registers meanwhile
   if (!isMover) {
     rest = isOdd ? kJoined : past.g < 0.0 && others > 0.08 ? past.g : min(past.g + stepSeconds, 0.0);
   }

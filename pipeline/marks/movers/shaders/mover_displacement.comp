@@ -1,29 +1,34 @@
 // Purpose: follows how far what is seen in each block has gone (mover_displacement.glsl), and has
 //          the blocks looked at that may be of a mover in place.
 // Inputs:  motion: MotionField's field, of texels of kFieldPixels; earlier: the previous frame's
-//          displacement; candidates (motion_layers_compare.glsl); background_activity.glsl's;
-//          isStanding: the camera has stood since the previous frame, else all is forgotten;
-//          leastDisplacement: px of the full image; stepSeconds.
+//          displacement; candidates (motion_layers_compare.glsl); background_activity.glsl's; ids
+//          (ArFrame) if hasObjects, pixelsOfFull; isStanding: the camera has stood since the previous
+//          frame; isHeld: it has until lately, so that what is known stays; else all is forgotten;
+//          leastDisplacement, mostError: px of the full image, of motion that is less certain;
+//          stepSeconds.
 // Outputs: displacement; busy_blocks.glsl's flags. One invocation per block.
 // Precision: highp.
 #include "pipeline/marks/movers/shaders/background_activity.glsl"
 #include "pipeline/marks/movers/shaders/busy_blocks.glsl"
 #include "pipeline/marks/movers/shaders/mover_displacement.glsl"
 #include "pipeline/marks/tensors/shaders/structure.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D displacement;
 uniform highp sampler2D motion;
 uniform highp sampler2D earlier;
 uniform highp sampler2D candidates;
+uniform highp usampler2D ids;
+uniform bool hasObjects;
+uniform vec2 pixelsOfFull;
 uniform bool isStanding;
+uniform bool isHeld;
 uniform float leastDisplacement;
+uniform float mostError;
 uniform float stepSeconds;
 
 const int kFieldPixels = 8;  // marks::MotionField
-const float kMostError = 0.5;  // px: motion that is less certain says nothing
 const float kFast = 12.0;  // times the least displacement: what goes through the picture
-const float kNever = 1000.0;    // s
-const float kPassing = 2000.0;  // in place of a time: something goes through the picture
 const float kRestContrast = 0.04;      // a block with such edges …
 const float kRestCorrelation = 0.985;  // … that are so alike to the remembered ones rests
 const float kQuietShare = 0.75;  // dynamicShare() of a block that is no leaves
@@ -35,7 +40,7 @@ vec2 motionIn(ivec2 block) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < side * side; ++i) {
     vec4 moved = texelFetch(motion, min(side * block + ivec2(i % side, i / side), last), 0);
-    if (moved.w > 0.5 && moved.z < kMostError) sum += vec3(moved.xy, 1.0);
+    if (moved.w > 0.5 && moved.z < mostError) sum += vec3(moved.xy, 1.0);
   }
   return sum.xy / max(sum.z, 1.0);
 }
@@ -77,8 +82,9 @@ bool isBesidePassing(ivec2 block) {
 
 // The displacement's z, from what it was. `far`: how far the block has gone, in least displacements.
 float sinceMoved(float was, float far, ivec2 block) {
+  if (stepSeconds <= 0.0) return was;
   if (far > kFast || (was >= kPassing && far > 1.0)) return kPassing;
-  bool isSure = was >= 0.0 && was < kNever;
+  bool isSure = was >= 0.0 && was < kInPlaceSeconds;
   if (far > 1.0 && isQuiet(block) && (isSure || !isBesidePassing(block))) {
     float moving = max(-was, 0.0) + stepSeconds;
     return isSure || moving > kSureSeconds ? 0.0 : -moving;
@@ -86,12 +92,22 @@ float sinceMoved(float was, float far, ivec2 block) {
   return isSure ? was + stepSeconds : kNever;
 }
 
+// Whether a model, or a real thing whose model is known, is in the middle of the block: what goes with
+// its pose is no mover.
+bool isObject(ivec2 block) {
+  if (!hasObjects) return false;
+  vec2 px = (vec2(block) + 0.5) * float(kLayerBlock) * kLayerCellPixels;
+  ivec2 pixel = min(ivec2(px * pixelsOfFull), textureSize(ids, 0) - 1);
+  return objectOf(texelFetch(ids, pixel, 0).r) != 0u;
+}
+
 void main() {
   ivec2 block = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(block, grid))) return;
-  vec4 now = vec4(0.0, 0.0, kNever, -1.0);
-  if (isStanding) {
-    vec4 before = texelFetch(earlier, block, 0);
+  vec4 now = vec4(0.0, 0.0, kNever, 0.0);
+  vec4 before = texelFetch(earlier, block, 0);
+  if (isHeld && !isStanding) now = before;
+  if (isStanding && !isObject(block)) {
     now.xy = exp(-stepSeconds / kDisplacementSeconds) * before.xy + motionIn(block);
     float far = length(now.xy) / leastDisplacement;
     now.z = sinceMoved(before.z, far, block);

@@ -1,6 +1,7 @@
 // Purpose: finds the plain parts of movers in place: what has moved, and is enclosed by other content.
 //          They look as what is remembered there, and so are no other content themselves.
-// Inputs:  displacements (mover_displacement.comp); candidates (motion_layers_compare.glsl).
+// Inputs:  displacements (mover_displacement.comp); candidates (motion_layers_compare.glsl); farReach:
+//          blocks that are looked at on a ray.
 // Outputs: inPlace: R: 1 in such a part, else 0. A group of invocations per block of the second list
 //          of busy_blocks.glsl.
 // Precision: highp.
@@ -10,9 +11,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba8, binding = 0) writeonly uniform highp image2D inPlace;
 uniform highp sampler2D displacements;
 uniform highp sampler2D candidates;
+uniform int farReach;
 
-const int kNearReach = 8;     // cells that are looked at one by one …
-const int kFarReach = 4;      // … and blocks beyond them
+const int kNearReach = 8;     // cells of which some are looked at, and blocks beyond them
 const int kLeastSides = 5;    // of the eight: with other content
 const int kMostOpen = 1;      // – without
 const int kMostKeptOpen = 2;  // – without, of what was a mover's
@@ -24,14 +25,13 @@ bool isOutside(ivec2 at, ivec2 size) {
 // What is on the ray from a cell: X: 1 for other content, Y: 1 for none; neither where the image
 // ends, which cuts people off.
 ivec2 onRay(ivec2 cell, ivec2 along, ivec2 size) {
-  ivec2 at = cell;
   for (int away = 1; away <= kNearReach; away += 1 + away / 2) {
-    at = cell + away * along;
+    ivec2 at = cell + away * along;
     if (isOutside(at, size)) return ivec2(0);
     if (texelFetch(candidates, at, 0).r > 0.5) return ivec2(1, 0);
   }
-  for (int i = 0; i < kFarReach; ++i) {
-    ivec2 block = at / kLayerBlock + i * along;
+  for (int i = 1; i <= farReach; ++i) {
+    ivec2 block = cell / kLayerBlock + i * along;
     if (isOutside(block, grid)) return ivec2(0);
     if (boundsMover(texelFetch(displacements, block, 0))) return ivec2(1, 0);
   }

@@ -1,4 +1,4 @@
-// Purpose: packs and unpacks a pixel of borders.glsl: its label (marks/stroke_label.glsl), another
+// Purpose: packs and unpacks a pixel of borders.glsl: its label (marks/strokes/shaders/stroke_label.glsl), another
 //          label within reach, and the share of the pixel that its own strokes may paint; if open,
 //          they may paint it all, and the share is that of the other label's strokes.
 // Inputs, outputs: packed, or in parts. From the lowest bit: two labels of 13 bits, 5 bits of the

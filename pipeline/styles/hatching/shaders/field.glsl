@@ -4,11 +4,12 @@
 //          through the picture, whose field changes with every step, mostly at the slope, but on
 //          somebody who moves in place as on the background.
 // Inputs:  field, modelField (marks::TensorField), fieldScale; moverField, moverScale; displacements
-//          (marks::MotionLayers), blockScale: px of the full image to texture coordinates; goes: px
-//          of a displacement from which on, and up to which, a mover goes; slope: a tensor;
+//          (marks::MotionLayers), blockScale: blocks a px of the full image; goes: px of a
+//          displacement from which on, and up to which, a mover goes; slope: a tensor;
 //          lead: weight of the field beside it; turn: cosine and sine of the set's angle.
 // Outputs: unit vectors; a direction and its opposite are the same.
 // Precision: highp.
+#include "pipeline/marks/movers/shaders/mover_displacement.glsl"
 uniform highp sampler2D field;
 uniform highp sampler2D modelField;
 uniform highp sampler2D moverField;
@@ -27,8 +28,8 @@ vec2 unitTensor(vec2 tensor) { return tensor * inversesqrt(max(dot(tensor, tenso
 
 // The part of lead at a place of a mover.
 float moverLeadAt(vec2 px) {
-  vec4 gone = textureLod(displacements, px * blockScale, 0.0);
-  float going = gone.w < 0.0 ? 1.0 : smoothstep(goes.x, goes.y, length(gone.xy));
+  vec4 gone = texelFetch(displacements, min(ivec2(px * blockScale), textureSize(displacements, 0) - 1), 0);
+  float going = mayBeInPlace(gone) ? smoothstep(goes.x, goes.y, length(gone.xy)) : 1.0;
   return mix(1.0, kMoverLead, going);
 }
 

@@ -1,5 +1,5 @@
-// Purpose: a seed as a point that is sorted into bins (marks/point.glsl).
-// Inputs, outputs: as of marks/point.glsl; the lowest bit of the penalty says whether the seed is on
+// Purpose: a seed as a point that is sorted into bins (marks/anchors/shaders/point.glsl).
+// Inputs, outputs: as of marks/anchors/shaders/point.glsl; the lowest bit of the penalty says whether the seed is on
 //          a mover.
 // Precision: integers are exact; penalties, to two of their units.
 #include "pipeline/marks/anchors/shaders/point.glsl"

@@ -1,5 +1,5 @@
 // Purpose: carries every seed with its anchor and gives its place in this image.
-// Inputs:  anchors (marks/anchor.glsl), seeds (seed.glsl), tilingThen (tiling_word.glsl) if
+// Inputs:  anchors (marks/anchors/shaders/anchor.glsl), seeds (seed.glsl), tilingThen (tiling_word.glsl) if
 //          hasThen: the previous frame's tiling; slots; carries: whether the anchors have moved
 //          since the last time; beginsAnew: all seeds are new; full: the full image's size in px;
 //          pixelsOfFull; reach: the largest distance of a seed from its anchor, px of the full

@@ -1,6 +1,6 @@
 // Purpose: copies seeds and their anchors into textures that the fragment shaders of the debug
 //          views can read.
-// Inputs:  anchors (marks/anchor.glsl), seeds (seed.glsl), points (marks/point.glsl): of this
+// Inputs:  anchors (marks/anchors/shaders/anchor.glsl), seeds (seed.glsl), points (marks/anchors/shaders/point.glsl): of this
 //          frame's tiling; slots, pixelsOfFull.
 // Outputs: places (RGBA32F): px of the seed and of its anchor; ways (RGBA16F): the source of the
 //          anchor's motion, its age in s, its fade, 1 if its seed is moving.
