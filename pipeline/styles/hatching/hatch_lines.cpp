@@ -25,8 +25,8 @@ constexpr double kMoverShapeSeconds = 0.15;
 constexpr double kMoverAlignSeconds = 1.0;
 /// The longest in which a line of a mover that is too many goes.
 constexpr hal::Duration kMoverFade = std::chrono::milliseconds(450);
-/// Displacements by which movers go through the picture, of its longer side: 9 to 21 px of 640,
-/// about 22 to 52 px a second. Slower ones move in place.
+/// Displacements (marks::MotionLayers) over which lines of a mover in place leave its field for the
+/// slope, of the picture's longer side: 9 to 21 px of 640, about 22 to 52 px a second.
 constexpr glm::vec2 kGoes{9.0F / 640.0F, 21.0F / 640.0F};
 /// Of a first frame, from random places.
 constexpr int kFirstSteps = 24;

@@ -9,7 +9,7 @@
 #include "pipeline/marks/movers/shaders/layer_blocks.glsl"
 const uint kMayBeMover = 1u;  // flags: a cell may be a mover's, if one is near
 const uint kIsNear = 2u;      // a cell moves, or was a mover's
-const uint kIsBusy = 4u;      // a cell is other content, or was a mover's
+const uint kIsBusy = 4u;      // a cell is other content, was a mover's, or may be of one in place
 const uint kIsOfFirst = 8u;   // the block is in the first list
 const uint kIsOfSecond = 16u;
 

@@ -1,4 +1,4 @@
-// Purpose: marks the blocks that have, or are beside, one with other content: all others remain
+// Purpose: marks the blocks that are busy (busy_blocks.glsl), or beside one: all others remain
 //          background.
 // Inputs:  busy_blocks.glsl's flags. One invocation per block.
 // Outputs: flags: kIsOfSecond; blocks (mover_parts.glsl): no part.
