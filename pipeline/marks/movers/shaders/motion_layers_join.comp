@@ -272,7 +272,6 @@ void main() {
   // A plain part does not change, though it moves: it does not rest.
   if (!isLight && texelFetch(inPlace, cell, 0).r > 0.5) {
     isFilled = isFilled || !isMover;
-    sides.maturity = max(sides.maturity, 2.0 * kMatureSeconds);
     changes = 1.0;
   }
   isMover = isMover || isFilled;

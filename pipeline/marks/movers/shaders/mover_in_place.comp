@@ -44,13 +44,14 @@ void main() {
   ivec2 cell = block * kLayerBlock + ivec2(gl_LocalInvocationID.xy);
   ivec2 size = textureSize(candidates, 0);
   if (isOutside(cell, size)) return;
-  bool mayBe = mayBeInPlace(texelFetch(displacements, block, 0));
+  // Other content is a mover's or has been uncovered, which is for others to tell.
+  vec2 own = texelFetch(candidates, cell, 0).rg;
+  bool mayBe = own.r <= 0.5 && mayBeInPlace(texelFetch(displacements, block, 0));
   ivec2 sides = ivec2(0);
   for (int i = 0; i < (mayBe ? 8 : 0); ++i) {
     ivec2 along = i < 2 ? ivec2(1, 0) : ivec2(i / 2 - 2, 1);
     sides += onRay(cell, (i & 1) != 0 ? -along : along, size);
   }
-  bool wasMover = texelFetch(candidates, cell, 0).g > 0.5;
-  bool isPart = sides.x >= kLeastSides && sides.y <= (wasMover ? kMostKeptOpen : kMostOpen);
+  bool isPart = sides.x >= kLeastSides && sides.y <= (own.g > 0.5 ? kMostKeptOpen : kMostOpen);
   imageStore(inPlace, cell, vec4(isPart ? 1.0 : 0.0, 0.0, 0.0, 0.0));
 }
