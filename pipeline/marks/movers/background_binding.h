@@ -10,8 +10,8 @@
 
 namespace pleinair::marks {
 
-/// What shaders/motion_layers.glsl reads: where the background was, also where surfaces of models
-/// and planes are before it. All calls on the thread of the GL context that was current at
+/// The inputs of programs that include shaders/motion_layers.glsl: where the background was, also
+/// where surfaces of models and planes are before it. All calls on the thread of the GL context that was current at
 /// construction.
 class BackgroundBinding {
  public:

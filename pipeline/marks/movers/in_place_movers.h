@@ -22,8 +22,8 @@ class InPlaceMovers {
   /// `blocks` is the number of blocks of MotionLayers. Throws hal::Failure if GPU memory runs out.
   InPlaceMovers(const gpu::ShaderLibrary& library, hal::FrameSize blocks);
 
-  /// What the camera has done: only while it stands is motion added up; all that was is kept for a
-  /// moment, so that a nudge loses nothing, and then forgotten.
+  /// The state of the camera. Motion is added up while it stands. Once it moves, the sum is kept for
+  /// a moment, so that a nudge loses nothing, and then forgotten.
   struct Camera {
     bool stands = false;    ///< since the previous frame
     bool hasStood = false;  ///< until lately
@@ -33,7 +33,8 @@ class InPlaceMovers {
               const gpu::Texture& activity, const BusyBlocks& blocks, Camera camera,
               float stepSeconds);
 
-  /// Of the last frame (shaders/mover_displacement.glsl): RGBA16F; a texel is a block.
+  /// The displacements of blocks in the last frame (shaders/mover_displacement.glsl): RGBA16F, a
+  /// texel for each block.
   const gpu::Texture& displacements() const { return displacements_.at(now_); }
 
   /// Writes to `inPlace`, RGBA8, in the cells of busy blocks: R: 1 in such a part.
