@@ -98,6 +98,7 @@ FramePipeline::FramePipeline(const PainterOptions& options, PainterGl gl)
   if (options.overlay) {
     overlay_.emplace(library_, scene_, options.machine, pictureSize_, options.doubtfulTags);
   }
+  if (style_->needs().faces) faces_.emplace();
   for (const QualityPlan& plan : qualityPlans()) {
     if (levels_.empty() || options.qualityLevels) levels_.push_back({sizeAt(pictureSize_, plan)});
   }
@@ -337,6 +338,11 @@ scene::ArFrame FramePipeline::compose(const hal::CapturedFrame& frame,
   } else {
     segmenter_.reset();
   }
+  if (motion != nullptr && needs.faces) {
+    addFaces(frame.captureTime, motion->isCut, composed);
+  } else {
+    faces_.reset();
+  }
   return composed;
 }
 
@@ -370,6 +376,17 @@ void FramePipeline::addSegments(const hal::ImageView& image, const tracking::Ima
   composed.measuredSegments = scene::MeasuredSegments{.segments = &segmenter_.follow(image, motion),
                                                       .frameScale = fit.scale,
                                                       .frameOrigin = fit.origin};
+}
+
+/// Adds the faces in the camera image.
+void FramePipeline::addFaces(hal::TimePoint captureTime, bool isCut, scene::ArFrame& composed) {
+  const auto scope = timer_.measure("find faces");
+  if (!faces_) faces_.emplace();
+  const gpu::AspectFill fit = gpu::aspectFill(luma_.luma().size(), pictureSize_);
+  composed.measuredFaces =
+      scene::MeasuredFaces{.faces = faces_->follow(luma_.luma(), captureTime, isCut),
+                           .frameScale = fit.scale,
+                           .frameOrigin = fit.origin};
 }
 
 /// Discards all that earlier frames have left, but for the estimator of image motion, which

@@ -24,6 +24,7 @@
 #include "pipeline/scene/render/ar_frame_renderer.h"
 #include "pipeline/scene/render/buffer_views.h"
 #include "pipeline/styles/style.h"
+#include "pipeline/tracking/faces/face_tracker.h"
 #include "pipeline/tracking/motion/canvas_motion.h"
 #include "pipeline/tracking/motion/image_motion_estimator.h"
 #include "pipeline/tracking/pose/tracker.h"
@@ -86,6 +87,7 @@ class FramePipeline {
                  scene::ArFrame& composed);
   void addSegments(const hal::ImageView& image, const tracking::ImageMotion& motion,
                    scene::ArFrame& composed);
+  void addFaces(hal::TimePoint captureTime, bool isCut, scene::ArFrame& composed);
   void forgetPast();
   void takeOverlay(const PaintParameters& parameters);
   bool isMachineSeen(const tracking::TrackingResult& tracked) const;
@@ -125,6 +127,7 @@ class FramePipeline {
   tracking::CanvasMotion motion_;
   tracking::ImageMotionEstimator imageMotion_;
   tracking::ImageSegmenter segmenter_;
+  std::optional<tracking::FaceTracker> faces_;  // if a style has asked for them
   std::optional<scene::LightEstimator> light_;       // if the scene's light is estimated
   std::optional<overlay::OverlayRenderer> overlay_;  // if there is a machine
   std::optional<tracking::CameraModel> fullCamera_;  // of the full picture

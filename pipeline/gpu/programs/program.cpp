@@ -205,6 +205,11 @@ Program& Program::set(std::string_view uniform, glm::vec4 value) {
   glUniform4f(location(uniform, "vec4"), value.x, value.y, value.z, value.w);
   return *this;
 }
+Program& Program::set(std::string_view uniform, std::span<const glm::vec4> values) {
+  glUniform4fv(location(uniform, "vec4"), static_cast<GLsizei>(values.size()),
+               glm::value_ptr(values.front()));
+  return *this;
+}
 Program& Program::set(std::string_view uniform, const glm::mat3& value) {
   glUniformMatrix3fv(location(uniform, "mat3"), 1, GL_FALSE, glm::value_ptr(value));
   return *this;

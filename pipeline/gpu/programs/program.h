@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -83,6 +84,8 @@ class Program {
   Program& set(std::string_view uniform, glm::vec2 value);
   Program& set(std::string_view uniform, glm::vec3 value);
   Program& set(std::string_view uniform, glm::vec4 value);
+  /// Of an array: its first elements.
+  Program& set(std::string_view uniform, std::span<const glm::vec4> values);
   Program& set(std::string_view uniform, const glm::mat3& value);
   Program& set(std::string_view uniform, const glm::mat4& value);
   /// Binds the texture to the next free unit and the sampler to it.

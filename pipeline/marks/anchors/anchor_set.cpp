@@ -246,8 +246,9 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .set("target", rule.target)
       .set("birthBelow", hold.hasSlack ? rule.birthBelow : rule.target)
       .set("deathAbove", hold.hasSlack ? rule.deathAbove : rule.target)
-      .set("hasMoverSlack", hold.hasMoverSlack ? 1 : 0)
-      .dispatch(grid, kStored);
+      .set("hasMoverSlack", hold.hasMoverSlack ? 1 : 0);
+  hold.fine.bind(density);
+  density.dispatch(grid, kStored);
   beginCells(plan)
       .set("slots", slots)
       .storage("Anchors", anchors)

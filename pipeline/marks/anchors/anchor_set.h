@@ -12,6 +12,7 @@
 #include "pipeline/gpu/buffer.h"
 #include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/marks/anchors/anchor.h"
+#include "pipeline/marks/fine_places.h"
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/marks/movers/motion_layers.h"
 #include "pipeline/marks/tensors/tensor_field.h"
@@ -31,7 +32,7 @@ struct DensityRule {
   /// Marks are cut short where there is much detail: in the camera's image and on movers, the three
   /// numbers above are multiplied there, by 1 up to the first of `detailRange`
   /// (TensorField::resolved), by this from the second on; only if advance() is given the field. At
-  /// most 3.9.
+  /// most 15.
   float detailFactor = 1.0F;
   glm::vec2 detailRange{0.0F, 1.0F};
 };
@@ -62,6 +63,7 @@ struct AnchorHold {
   /// the same on movers; if false, density is kept at their share of the target, but for two
   /// anchors
   bool hasMoverSlack = true;
+  FinePlaces fine;  ///< where there are more anchors, if the style's marks are smaller there
 };
 
 /// The anchors of a style's marks. They are spawned where the image has too few, follow the surface

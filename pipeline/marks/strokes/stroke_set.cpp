@@ -237,6 +237,7 @@ void StrokeSet::State::traceListed(gpu::Program& program, std::size_t groups,
     program.texture("backgroundActivity", layerTextures.activityOf(layers));
   if (program.hasUniform("hasSegments")) program.set("hasSegments", borders != nullptr ? 1 : 0);
   rule.focus.bind(program);
+  (rule.finer ? rule.fine : FinePlaces{}).bind(program);
   program.dispatchListed(lists, groups, program.groupsFor({static_cast<int>(slots), 1}),
                          GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -264,8 +265,9 @@ void StrokeSet::State::layOut(const AnchorSet& anchors, const StrokeRule& rule) 
       .texture("mixtures", rule.mixtures != nullptr ? *rule.mixtures : anyColour)
       .set("isLimited", rule.mixtures != nullptr ? 1 : 0)
       .set("jitter", rule.jitter)
-      .set("points", 8)
-      .dispatch(allSlots(), GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+      .set("points", 8);
+  rule.fine.bind(lay);
+  lay.dispatch(allSlots(), GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 StrokeSet::StrokeSet(const gpu::ShaderLibrary& library, std::uint32_t slotCount)

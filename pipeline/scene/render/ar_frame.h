@@ -16,6 +16,7 @@
 #include "pipeline/gpu/texture.h"
 #include "pipeline/scene/models/limits.h"
 #include "pipeline/tracking/camera/camera_model.h"
+#include "pipeline/tracking/faces/face_tracker.h"
 #include "pipeline/tracking/motion/image_motion.h"
 #include "pipeline/tracking/segments/image_segments.h"
 
@@ -105,12 +106,21 @@ struct MeasuredSegments {
   glm::dvec2 frameOrigin{0.0};
 };
 
+/// Faces in the camera image, if a style asks for them.
+struct MeasuredFaces {
+  std::span<const tracking::Face> faces;  ///< in px of the captured frame
+  /// px of the frame = px of the full picture · scale + origin.
+  glm::dvec2 frameScale{1.0};
+  glm::dvec2 frameOrigin{0.0};
+};
+
 /// Optional contents of an AR frame that a style may ask for.
 struct ArFrameNeeds {
   /// ArFrame::motion, barycentrics, parts, forms and surfaces, if the scene has any
   bool surfaces = false;
   bool measuredMotion = false;       ///< ArFrame::measuredMotion
   bool segments = false;             ///< ArFrame::measuredSegments
+  bool faces = false;                ///< ArFrame::measuredFaces
   bool canvas = false;               ///< ArFrame::canvasFromPicture, which costs a little to find
   Shading shading = Shading::kToon;  ///< of models
 };
@@ -145,6 +155,8 @@ struct ArFrame {
   std::optional<MeasuredMotion> measuredMotion;
   /// Set if asked for.
   std::optional<MeasuredSegments> measuredSegments;
+  /// Set if asked for.
+  std::optional<MeasuredFaces> measuredFaces;
   bool hasObjects = false;  ///< whether any virtual object may be visible; if not, all ids are 0
   bool sceneHasModels = false;
   /// Where ids and forms may be other than 0: low and high corner, px of this image. Unset:

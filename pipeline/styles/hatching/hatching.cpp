@@ -227,6 +227,7 @@ void Hatching::State::findContours(const scene::ArFrame& frame, const HatchingPa
   const auto step = std::max(
       kMinContourStep,
       static_cast<float>(p.contourWidth * hatchScale(frame.full()) * frame.pixelsOfFull().x));
+  const marks::FinePlaces fine = finePlacesOf(p, frame);
   const auto bindField = [&](gpu::Program& pass) {
     pass.texture("field", field.resolved(0))
         .texture("modelField", field.resolvedModels(0))
@@ -238,6 +239,7 @@ void Hatching::State::findContours(const scene::ArFrame& frame, const HatchingPa
         .set("size", glm::vec2(canvas->size.width, canvas->size.height))
         .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
         .set("step_", step);
+    fine.bind(pass);
   };
   bindField(contourEdges.use());
   contourEdges.texture("luma", tone.luma()).drawFullscreen(canvas->edgesTarget);
@@ -338,6 +340,7 @@ const StyleKind& hatchingKind() {
       .views = kViews,
       .needs = {.surfaces = true,
                 .measuredMotion = true,
+                .faces = true,
                 .canvas = true,
                 .shading = scene::Shading::kSmooth},
       .coherence = {.gates = kGates, .paperLooks = kPaperLooks, .drawsLines = true},
@@ -392,6 +395,12 @@ void Hatching::warmUp(SceneContents contents) {
   state_->canvas = nullptr;
   state_->canvases.clear();
   state_->tone.clear();
+}
+
+scene::ArFrameNeeds Hatching::needs() const {
+  scene::ArFrameNeeds needs = kind().needs;
+  needs.faces = p_.faces > 0.0;
+  return needs;
 }
 
 hal::Result<void> Hatching::prepare(const config::ParameterValues& values) {

@@ -41,6 +41,7 @@ class Hatching final : public Style {
 
   const StyleKind& kind() const override { return hatchingKind(); }
   const config::ParameterValues& parameters() const override { return values_; }
+  scene::ArFrameNeeds needs() const override;
   hal::Result<void> prepare(const config::ParameterValues& values) override;
   void setParameters(const config::ParameterValues& values) override;
   const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view) override;

@@ -71,6 +71,8 @@ const config::ParameterTable<HatchingParameters>& hatchingParameters() {
                       "The least edge of the picture that is a contour line."),
       numberParameter("contour_width", &P::contourWidth, {.min = 0.5, .max = 4, .unit = "px"},
                       "Of contour lines."),
+      numberParameter("faces", &P::faces, kPart,
+                      "How much finer than the rest faces are drawn; 0 does not look for any."),
       choiceParameter("brush", &P::brush, kBrushNames, "What lines are drawn with."),
       pathParameter("brush_file", &P::brushFile, {kNoBrushFile},
                     "A brush of your own instead: a PNG (docs/painting.md).",

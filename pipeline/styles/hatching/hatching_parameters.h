@@ -37,6 +37,7 @@ struct HatchingParameters {
   double lift = 0.75;
   double contourThreshold = 0.018;
   double contourWidth = 1.3;
+  double faces = 1.0;  // how much finer they are drawn than the rest
   Brush brush = Brush::kMarker;
   std::filesystem::path brushFile = kNoBrushFile;
   double grain = 0.15;

@@ -49,6 +49,7 @@ const StyleKind& painterlyKind() {
       .needs = {.surfaces = true,
                 .measuredMotion = true,
                 .segments = true,
+                .faces = true,
                 .canvas = true,
                 .shading = scene::Shading::kSmooth},
       .coherence = {.gates = kGates, .holdsAnchors = true, .paperLooks = kPaperLooks},

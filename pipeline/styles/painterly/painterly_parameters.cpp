@@ -79,6 +79,9 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
                       "Radius of the focus, in heights of the picture."),
       numberParameter("focus_falloff", &P::focusFalloff, {.min = 0, .max = 2},
                       "How wide its border is, in heights of the picture."),
+      numberParameter("faces", &P::faces, kPart,
+                      "How much more exactly than the rest faces are painted; 0 does not look for "
+                      "any."),
       numberParameter("opacity", &P::opacity, kPart, "How opaque a stroke's paint is."),
       numberParameter("leave_light", &P::leaveLight, kPart,
                       "How much light places are left to the ground, as pencils do."),

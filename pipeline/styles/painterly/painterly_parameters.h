@@ -42,6 +42,7 @@ struct PainterlyParameters {
   double focusY = 0.5;
   double focusRadius = 0.25;
   double focusFalloff = 0.25;
+  double faces = 1.0;  // how much more exactly they are painted than the rest
   double opacity = 1.0;
   double leaveLight = 0.0;
   double widthVariation = 0.25;

@@ -6,7 +6,7 @@ struct Cell {
   uint onObjects;  // staying anchors on virtual objects
   uint nextInImage;  // key of the next anchor to remove in the camera image (removalKey()); 0: none
   uint strata;  // the occupied parts of the cell: 16 bits for the image, 16 for objects
-  // wanted spawns: 8 bits for the image, 8 for the factor of its target, 8 for objects, 8 for patches
+  // wanted spawns: 6 bits for the image, 10 for the factor of its target, 8 for objects, 8 for patches
   // of objects without anchors
   uint births;
   uint firstBirth;  // index in the frame's spawns
@@ -27,10 +27,10 @@ struct Cell {
 uint patchBit(uint label) { return 1u << (label % 31u); }
 const float kFactorUnits = 64.0;
 uint birthsWith(uint number, float factor) {
-  return min(number, 255u) | uint(clamp(factor * kFactorUnits + 0.5, 1.0, 255.0)) << 8u;
+  return min(number, 63u) | uint(clamp(factor * kFactorUnits + 0.5, 1.0, 1023.0)) << 6u;
 }
-uint birthsInImage(uint births) { return births & 0xFFu; }
-float factorOf(uint births) { return float(births >> 8u & 0xFFu) / kFactorUnits; }
+uint birthsInImage(uint births) { return births & 63u; }
+float factorOf(uint births) { return float(births >> 6u & 1023u) / kFactorUnits; }
 uint birthsOnObjects(uint births) { return births >> 16u & 0xFFu; }
 uint birthsOnPatches(uint births) { return births >> 24u; }
 

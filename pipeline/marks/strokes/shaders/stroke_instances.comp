@@ -1,6 +1,6 @@
 // Purpose: the drawn form of each stroke: the control points of its spline, in painting order.
 // Inputs:  anchors, strokes, ranks (stroke_order.comp); segment: px; width: px, widthSpread: random
-//          part of it; opacity; leaveLight; mixture.glsl's if isLimited; jitter: of hue,
+//          part of it; opacity; leaveLight; mixture.glsl's if isLimited; fine_places.glsl's; jitter: of hue,
 //          saturation, value.
 // Outputs: instances: 8 points (px of the full image), colour (sRGB-coded) and opacity; half the
 //          width (px), the brush's variant, plus 4 if it is mirrored, the label of what the stroke
@@ -9,6 +9,7 @@
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/gpu/images/shaders/luma.glsl"
 #include "pipeline/marks/anchors/shaders/anchor.glsl"
+#include "pipeline/marks/shaders/fine_places.glsl"
 #include "pipeline/marks/shaders/mixture.glsl"
 #include "pipeline/marks/strokes/shaders/stroke.glsl"
 #include "pipeline/marks/strokes/shaders/stroke_instance.glsl"
@@ -32,6 +33,7 @@ uniform int points;  // 8; a uniform, so that compilers keep the loop over them
 const float kGreyHue = 0.4;
 const float kModelValues = 0.5;  // of the jitter: models turn, which shows it more
 const float kSpeck = 0.5;
+const float kFineJitter = 0.25;  // of the jitter, in fine places
 
 // The point `s` segments along the stroke, from its anchor on.
 vec2 along(uint slot, float s) {
@@ -63,14 +65,16 @@ void main() {
     instances[rank].points[i - 1] = px + segment * along(slot, s);
   }
   vec3 colour = strokes[slot].colour;
+  bool isOnModel = isPatch(labelOfStroke(strokes[slot].state));
+  vec3 jitters = jitter * (isOnModel ? 1.0 : mix(1.0, kFineJitter, finelyAt(px)));
   float luma = lumaOf(colour);
   vec3 hue = vec3(randomOf(seed, 0x21u), randomOf(seed, 0x22u), randomOf(seed, 0x23u));
   hue -= lumaOf(hue);
-  colour = luma + (colour - luma) * (1.0 + 2.0 * jitter.y * randomOf(seed, 0x24u));
+  colour = luma + (colour - luma) * (1.0 + 2.0 * jitters.y * randomOf(seed, 0x24u));
   // Jitter leaves greys nearly grey.
   float chroma = max(colour.r, max(colour.g, colour.b)) - min(colour.r, min(colour.g, colour.b));
-  colour += 2.0 * jitter.x * hue * (0.25 + luma) * mix(kGreyHue, 1.0, smoothstep(0.0, 0.25, chroma));
-  float values = jitter.z * (isPatch(labelOfStroke(strokes[slot].state)) ? kModelValues : 1.0);
+  colour += 2.0 * jitters.x * hue * (0.25 + luma) * mix(kGreyHue, 1.0, smoothstep(0.0, 0.25, chroma));
+  float values = jitters.z * (isOnModel ? kModelValues : 1.0);
   colour *= 1.0 + 2.0 * values * randomOf(seed, 0x25u);
   float light = smoothstep(0.2, 0.95, luma);
   // A stroke cut short on both sides is a speck with little support: paint it thinly.

@@ -8,13 +8,15 @@
 //          stroke_walk.glsl's; background (marks::MotionLayers); background_activity.glsl's, but
 //          with ON_MODELS; ids (ArFrame), ON_MODELS;
 //          depthRange: the near and the far plane in metres, 0: no depth; focalPx: of
-//          the full image, 0: not known; imageScale: the anchors', octaves; focus.glsl's; layer: its
+//          the full image, 0: not known; imageScale: the anchors', octaves; focus.glsl's and
+//          fine_places.glsl's; layer: its
 //          number and how many; the rest as in marks::StrokeRule.
 // Outputs: strokes. One invocation per stroke of its list.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/anchors/shaders/accent.glsl"
 #include "pipeline/marks/anchors/shaders/anchor.glsl"
+#include "pipeline/marks/shaders/fine_places.glsl"
 #include "pipeline/marks/shaders/focus.glsl"
 #include "pipeline/marks/movers/shaders/layer_blocks.glsl"
 #include "pipeline/marks/strokes/shaders/stroke.glsl"
@@ -113,6 +115,11 @@ void turn(uint slot, vec4 jacobian) {
 
 const float kShrinking = 4.0;  // times as fast as shapes change
 const float kMoverShrinking = 20.0;
+
+const float kFineContrast = 1.0;  // more of the difference from what is around a place
+const float kFineReach = 6.0;  // px
+const float kFineGirth = 0.55;  // of the width, in fine places
+const float kFineDetail = 2.0;  // how much more detail counts there
 
 const float kModelHold = 0.25;  // of the rate at which shapes change elsewhere
 
@@ -225,7 +232,8 @@ bool isWanted(uint slot, vec2 px, float seen, bool isResting, bool isNew) {
   float hash = unitOf(hashOf(anchors[slot].seed ^ 0x51u));
   // A stroke is wanted where the detail lies in its band; an existing one stays a little longer.
   float focused = focusStrength * focusAt(px);
-  float detail = (1.0 + kFocusDetail * focused) * seen + detailSpread * (hash - 0.5);
+  focused = kFocusDetail * focused + kFineDetail * walks[gl_LocalInvocationIndex].finely;
+  float detail = (1.0 + focused) * seen + detailSpread * (hash - 0.5);
   bool isAccent = !isModel && (strokes[slot].state & kAccent) != 0u;
   float leastDetail = detailBand.x * (isAccent ? kAccentDetail : 1.0);
   bool was = !isNew && (strokes[slot].state & kWanted) != 0u;
@@ -261,6 +269,18 @@ void markAccent(uint slot, vec2 px, vec2 heading, bool isNew) {
   strokes[slot].state = (strokes[slot].state & ~kAccent) | (narrow > least ? kAccent : 0u);
 }
 
+// The colour at a place; in fine places, with its difference from what is around it stressed.
+vec3 accented(vec2 px, Support on, float finely) {
+  vec3 own = colourAt(px, on);
+  int taps = finely > 0.0 ? 4 : 0;
+  vec3 around = vec3(0.0);
+  for (int i = 0; i < taps; ++i) {
+    float side = (i & 1) == 0 ? -kFineReach : kFineReach;
+    around += 0.25 * colourAt(px + ((i & 2) == 0 ? vec2(side, 0.0) : vec2(0.0, side)), on);
+  }
+  return taps > 0 ? clamp(own + kFineContrast * finely * (own - around), 0.0, 1.0) : own;
+}
+
 // What is read again, of anchors and strokes, is not kept in registers through the walk.
 void main() {
   if (gl_GlobalInvocationID.x >= lists[kList + 3]) return;
@@ -290,7 +310,8 @@ void main() {
   float stray = wander * (unitOf(hashOf(seed ^ 0x77u)) + unitOf(hashOf(seed ^ 0x78u)) - 1.0);
   vec2 hand = vec2(cos(stray), sin(stray));
   Support on = supportOf(label, isOnMover, px);
-  vec3 own = colourAt(px, on);
+  float finely = isModel ? 0.0 : finelyAt(px);
+  vec3 own = accented(px, on, finely);
   float seen = detailAt(px, on);
   vec2 heading = directionAt(px, on);
   heading = vec2(hand.x * heading.x - hand.y * heading.y, hand.y * heading.x + hand.x * heading.y);
@@ -300,7 +321,7 @@ void main() {
     vec2 was = jacobian.xy * strokes[slot].ways[0].x + jacobian.zw * strokes[slot].ways[0].y;
     if (dot(was, heading) < 0.0) heading = -heading;
   }
-  walks[gl_LocalInvocationIndex] = Walk(own, seen, heading, hand, isNew);
+  walks[gl_LocalInvocationIndex] = Walk(own, seen, heading, hand, isNew, finely);
   if (!isModel) markAccent(slot, px, heading, isNew);
   memoryBarrierShared();  // or compilers keep what they have just stored
   memoryBarrierBuffer();
@@ -341,7 +362,11 @@ void main() {
   }
   float changed = isNew ? 0.0 : smoothstep(otherHere.x, otherHere.y, weightedLength(change));
   uint now = label | (wanted ? kWanted : 0u) | (isModel ? 0u : strokes[slot].state & kAccent);
-  if (isModel && !isNew) now = withGirth(now, mix(1.0, girthOf(strokes[slot].state), past.x));
+  if (!isModel) {
+    now = withGirth(now, mix(1.0, kFineGirth, walks[gl_LocalInvocationIndex].finely));
+  } else if (!isNew) {
+    now = withGirth(now, mix(1.0, girthOf(strokes[slot].state), past.x));
+  }
   strokes[slot].state = now;
   storeWays(slot, heading, isModel, stays, !isNew && changed < 0.5);
   float exists = goal;  // the anchor fades it in

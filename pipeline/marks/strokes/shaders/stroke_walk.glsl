@@ -108,6 +108,7 @@ struct Walk {
   vec2 heading;
   vec2 hand;
   bool isNew;
+  float finely;  // FinePlaces
 };
 
 // In registers, these would leave none to the walk.
@@ -148,8 +149,16 @@ vec2 steered(vec2 at, vec2 heading) {
 
 const float kBehind = 0.025;  // of the image's width: so far strokes go on behind models
 
+// In fine places, of the length of an arm and of the colour threshold.
+const float kFineSteps = 0.32;
+const float kFineThreshold = 0.45;
+float stepsOfArm() { return steps * mix(1.0, kFineSteps, walks[gl_LocalInvocationIndex].finely); }
+float threshold() {
+  return colourThreshold * mix(1.0, kFineThreshold, walks[gl_LocalInvocationIndex].finely);
+}
+
 // Ends an arm after so many steps.
-void endArm(int number, float length) { walked[number].length = min(steps, length); }
+void endArm(int number, float length) { walked[number].length = min(stepsOfArm(), length); }
 
 // Walks an arm, ahead or behind, and stores it. Behind its end, only its directions go on.
 void walk(int side, vec2 from, Support on) {
@@ -159,7 +168,7 @@ void walk(int side, vec2 from, Support on) {
   bool goesBehind = mayLeave && !isModel;
   float left = kBehind * fullSize.x;
   int number = side * kWalkers + int(gl_LocalInvocationIndex);
-  walked[number] = Arm(vec3(0.0), 0.0, steps, 0.0);
+  walked[number] = Arm(vec3(0.0), 0.0, stepsOfArm(), 0.0);
   bool goesOn = true;
   vec2 at = from;
   vec2 heading = walks[gl_LocalInvocationIndex].heading;
@@ -210,16 +219,16 @@ void walk(int side, vec2 from, Support on) {
     vec3 own = walks[gl_LocalInvocationIndex].colour;
     vec3 there = colourAt(at, on);
     float difference = apart(there, own);
-    if (difference > colourThreshold) {
+    if (difference > threshold()) {
       float before = walked[number].difference;
-      float part = clamp((colourThreshold - before) / max(difference - before, 1e-4), 0.0, 1.0);
+      float part = clamp((threshold() - before) / max(difference - before, 1e-4), 0.0, 1.0);
       endArm(number, max(float(i) + part, minSteps));
       continue;
     }
     goesOn = true;
     walked[number].difference = difference;
-    if (float(i) >= steps) continue;
-    float weight = 1.0 - 0.7 * difference / colourThreshold;
+    if (float(i) >= stepsOfArm()) continue;
+    float weight = 1.0 - 0.7 * difference / threshold();
     walked[number].colour += weight * there;
     walked[number].weight += weight;
   }

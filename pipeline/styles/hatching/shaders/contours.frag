@@ -1,17 +1,20 @@
 // Purpose: contour lines: edges of the image, smoothed along their direction, and the silhouettes,
 //          creases and part borders of models; and the outlines of movers, but not where what is
 //          beside them, or the remembered background, is seen inside: labels reach beyond what
-//          moves, and may end within it.
+//          moves, and may end within it. In fine places (fine_places.glsl), lines are of finer
+//          shades.
 // Defines: MODELS: with the lines of models.
-// Inputs:  edges (contour_edges.frag, LINEAR); contour_field.glsl's and mover_labels.glsl's; step_:
-//          px between taps; threshold: the least difference that is a line, in luma; sign_: -1 for
+// Inputs:  edges (contour_edges.frag, LINEAR); contour_field.glsl's, mover_labels.glsl's and
+//          fine_places.glsl's; step_: px between taps; threshold: the least difference that is a line, in luma; sign_: -1 for
 //          lines on the dark side of edges, 1 for the light one; picture: the image that tones are
 //          taken from (LINEAR); background (marks::MotionLayers); MODELS: ids, normalFocus (ArFrame).
 // Outputs: RG8: R ink, in [0, 1]; G the other side of edges, which stays bare where all around is
 //          dark (light, in inverted looks).
 // Precision: highp.
+#include "pipeline/gpu/images/shaders/luma.glsl"
 #include "pipeline/marks/shaders/colour_difference.glsl"
 #include "pipeline/marks/movers/shaders/mover_labels.glsl"
+#include "pipeline/marks/shaders/fine_places.glsl"
 #include "pipeline/styles/hatching/shaders/contour_field.glsl"
 #ifdef MODELS
 #include "pipeline/scene/render/shaders/object_id.glsl"
@@ -27,6 +30,10 @@ uniform highp sampler2D background;
 layout(location = 0) out vec2 contour;
 
 const float kStride = 1.8;  // steps between taps: specks of a texture are shorter than a line
+const float kFineStride = 0.3;  // of that, in fine places
+// From no line to a whole one, in thresholds.
+const vec2 kRange = vec2(0.6, 1.4);
+const vec2 kFineRange = vec2(0.27, 1.44);
 const float kSmooth[4] = float[4](0.24, 0.2, 0.12, 0.06);
 
 // To one of four sides, and its opposite.
@@ -83,6 +90,14 @@ float moverLine(vec2 px) {
   return line * smoothstep(0.05, 0.1, unlikeGround(px, line > 0.0));
 }
 
+// What shows how dim light is: differences fall with it.
+float shadeAt(vec2 px) {
+  const float kSkin = 0.6;    // luma, well lit
+  const float kLeast = 0.3;
+  float light = lumaOf(seenAt(px)) / kSkin;
+  return clamp(light * light, kLeast, 1.0);
+}
+
 float edgeAt(vec2 pixel) { return textureLod(edges, pixel / size, 0.0).r; }
 
 #ifdef MODELS
@@ -123,17 +138,20 @@ float modelLines(ivec2 p) {
 #endif
 
 void main() {
+  float finely = finelyAt(gl_FragCoord.xy / pixelsOfFull);
+  float stride = kStride * mix(1.0, kFineStride, finely) * step_;
   vec2 gradient = gradientAt(gl_FragCoord.xy);
   float sum = kSmooth[0] * edgeAt(gl_FragCoord.xy);
   for (int side = -1; side <= 1; side += 2) {
     vec2 at = gl_FragCoord.xy;
     vec2 along = float(side) * vec2(-gradient.y, gradient.x);
     for (int i = 1; i < 4; ++i) {
-      at += kStride * step_ * along;
+      at += stride * along;
       sum += kSmooth[i] * edgeAt(at);
     }
   }
-  contour = smoothstep(vec2(0.6 * threshold), vec2(1.4 * threshold), vec2(sign_, -sign_) * sum);
+  vec2 range = threshold * mix(kRange, kFineRange * shadeAt(gl_FragCoord.xy / pixelsOfFull), finely);
+  contour = smoothstep(vec2(range.x), vec2(range.y), vec2(sign_, -sign_) * sum);
   contour.r = max(contour.r, moverLine(gl_FragCoord.xy / pixelsOfFull));
 #ifdef MODELS
   ivec2 p = ivec2(gl_FragCoord.xy);
