@@ -5,7 +5,7 @@ set(views "")
 set(number 0)
 foreach(input IN LISTS INPUTS)
   file(READ "${input}" text)
-  # An array's length is known without counting, which a compiler does not do so far.
+  # GCC counts no more than 262144 characters of a string in a constant expression.
   string(APPEND texts "constexpr char kText${number}[] = R\"cascade(${text})cascade\";\n")
   string(APPEND views "      {kText${number}, sizeof kText${number} - 1},\n")
   math(EXPR number "${number} + 1")

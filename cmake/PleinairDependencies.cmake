@@ -52,14 +52,18 @@ pleinair_opencv_module(calib3d)
 pleinair_opencv_module(features2d)
 pleinair_opencv_module(flann)
 pleinair_opencv_module(objdetect)
+pleinair_opencv_module(video)
+
 # The classifiers of faces, which the program contains (docs/decisions/0132-faces.md).
 set(PLEINAIR_FACE_CASCADES)
 foreach(name alt alt2)
   find_file(PLEINAIR_FACE_CASCADE_${name} haarcascade_frontalface_${name}.xml
-    PATHS /usr/share/opencv4/haarcascades PATH_SUFFIXES opencv4/haarcascades REQUIRED)
+    PATHS /usr/share/opencv4/haarcascades PATH_SUFFIXES opencv4/haarcascades)
+  if(NOT PLEINAIR_FACE_CASCADE_${name})
+    message(FATAL_ERROR "haarcascade_frontalface_${name}.xml is missing: install opencv-data")
+  endif()
   list(APPEND PLEINAIR_FACE_CASCADES "${PLEINAIR_FACE_CASCADE_${name}}")
 endforeach()
-pleinair_opencv_module(video)
 
 # pleinair_optional(NAME STATE): adds a line to the configure summary: "in", or "not in" and why.
 function(pleinair_optional name state)

@@ -98,7 +98,7 @@ FramePipeline::FramePipeline(const PainterOptions& options, PainterGl gl)
   if (options.overlay) {
     overlay_.emplace(library_, scene_, options.machine, pictureSize_, options.doubtfulTags);
   }
-  if (style_->needs().faces) faces_.emplace();
+  if (style_->kind().needs.faces) faces_.emplace();
   for (const QualityPlan& plan : qualityPlans()) {
     if (levels_.empty() || options.qualityLevels) levels_.push_back({sizeAt(pictureSize_, plan)});
   }
@@ -340,8 +340,8 @@ scene::ArFrame FramePipeline::compose(const hal::CapturedFrame& frame,
   }
   if (motion != nullptr && needs.faces) {
     addFaces(frame.captureTime, motion->isCut, composed);
-  } else {
-    faces_.reset();
+  } else if (faces_) {
+    faces_->reset();
   }
   return composed;
 }
@@ -381,7 +381,6 @@ void FramePipeline::addSegments(const hal::ImageView& image, const tracking::Ima
 /// Adds the faces in the camera image.
 void FramePipeline::addFaces(hal::TimePoint captureTime, bool isCut, scene::ArFrame& composed) {
   const auto scope = timer_.measure("find faces");
-  if (!faces_) faces_.emplace();
   const gpu::AspectFill fit = gpu::aspectFill(luma_.luma().size(), pictureSize_);
   composed.measuredFaces =
       scene::MeasuredFaces{.faces = faces_->follow(luma_.luma(), captureTime, isCut),

@@ -127,7 +127,7 @@ class FramePipeline {
   tracking::CanvasMotion motion_;
   tracking::ImageMotionEstimator imageMotion_;
   tracking::ImageSegmenter segmenter_;
-  std::optional<tracking::FaceTracker> faces_;  // if a style has asked for them
+  std::optional<tracking::FaceTracker> faces_;  // if the style may ask for them
   std::optional<scene::LightEstimator> light_;       // if the scene's light is estimated
   std::optional<overlay::OverlayRenderer> overlay_;  // if there is a machine
   std::optional<tracking::CameraModel> fullCamera_;  // of the full picture

@@ -84,7 +84,7 @@ class Program {
   Program& set(std::string_view uniform, glm::vec2 value);
   Program& set(std::string_view uniform, glm::vec3 value);
   Program& set(std::string_view uniform, glm::vec4 value);
-  /// Of an array: its first elements.
+  /// Of an array: its first elements. Precondition: one at least, and no more than it has.
   Program& set(std::string_view uniform, std::span<const glm::vec4> values);
   Program& set(std::string_view uniform, const glm::mat3& value);
   Program& set(std::string_view uniform, const glm::mat4& value);

@@ -21,6 +21,7 @@ namespace {
 const std::string kShaders = "pipeline/marks/anchors/shaders/";
 constexpr std::size_t kCellBytes = 64;  // shaders/anchor_cells.glsl
 constexpr int kMaxStrata = 4;           // along a cell's side (shaders/anchor_cells.glsl)
+constexpr float kFaithfulPart = 0.04F;  // of the image (DensityRule::faithfulFactor)
 constexpr unsigned kFirstModel = scene::kMaxPlanes;  // in SurfaceAccess::bodies
 constexpr GLbitfield kStored = GL_SHADER_STORAGE_BARRIER_BIT;
 constexpr std::array<std::uint32_t, 4> kNoneOccupied{0, 1, 1, 0};  // shaders/occupied_slots.glsl
@@ -36,7 +37,8 @@ std::uint32_t slotsFor(glm::ivec2 grid, const DensityRule& rule) {
   const int cells = (grid.x + 2) * (grid.y + 2);
   const int plain = cells * (rule.target + rule.deathAbove);
   const auto twiceTarget = static_cast<float>(2 * cells * rule.target);
-  const int twice = plain + static_cast<int>((rule.detailFactor - 1.0F) * twiceTarget);
+  const float more = rule.detailFactor - 1.0F + kFaithfulPart * (rule.faithfulFactor - 1.0F);
+  const int twice = plain + static_cast<int>(more * twiceTarget);
   const int fading = twice / 10;
   const int covered = plain / 4;
   return static_cast<std::uint32_t>((twice + fading + covered + 1) / 2);
@@ -155,6 +157,12 @@ struct AnchorSet::State {
         .dispatchListed(occupied, 0, program.groupsFor(allSlots()), kStored);
   }
 
+  /// What there are slots for.
+  float faithfulFactor(const FidelityField& fidelity) const {
+    const float most = kFaithfulPart * static_cast<float>(full.pixels());
+    const float part = std::min(1.0F, most / std::max(fidelity.areaPx(), 1.0F));
+    return 1.0F + part * (options.density.faithfulFactor - 1.0F);
+  }
   void carryOnSurfaces(const scene::ArFrame& frame);
   void carryInImage(const scene::ArFrame& frame, const MotionField& motion, const AnchorHold& hold,
                     hal::Duration step, bool onSurfaces);
@@ -247,7 +255,8 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .set("birthBelow", hold.hasSlack ? rule.birthBelow : rule.target)
       .set("deathAbove", hold.hasSlack ? rule.deathAbove : rule.target)
       .set("hasMoverSlack", hold.hasMoverSlack ? 1 : 0);
-  hold.fine.bind(density);
+  hold.fidelity.bind(density);
+  density.set("faithfulFactor", faithfulFactor(hold.fidelity));
   density.dispatch(grid, kStored);
   beginCells(plan)
       .set("slots", slots)
@@ -290,6 +299,8 @@ AnchorSet::AnchorSet(const gpu::ShaderLibrary& library, hal::FrameSize full, Anc
     : state_(std::make_unique<State>(library, full, options)) {
   [[maybe_unused]] const DensityRule& rule = options.density;
   assert(rule.cellPixels > 0 && rule.birthBelow <= rule.target && rule.target <= rule.deathAbove);
+  assert(static_cast<float>(rule.target) * std::max(rule.detailFactor, rule.faithfulFactor) <
+         63.0F);
 }
 
 AnchorSet::~AnchorSet() = default;

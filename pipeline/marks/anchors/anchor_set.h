@@ -12,7 +12,7 @@
 #include "pipeline/gpu/buffer.h"
 #include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/marks/anchors/anchor.h"
-#include "pipeline/marks/fine_places.h"
+#include "pipeline/marks/fidelity_field.h"
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/marks/movers/motion_layers.h"
 #include "pipeline/marks/tensors/tensor_field.h"
@@ -35,6 +35,9 @@ struct DensityRule {
   /// most 15.
   float detailFactor = 1.0F;
   glm::vec2 detailRange{0.0F, 1.0F};
+  /// Marks are smaller where fidelity is higher (AnchorHold::fidelity): there, the numbers are
+  /// multiplied by up to this, by less where it would be for more than 4 % of the image. At most 15.
+  float faithfulFactor = 1.0F;
 };
 
 struct AnchorOptions {
@@ -63,7 +66,7 @@ struct AnchorHold {
   /// the same on movers; if false, density is kept at their share of the target, but for two
   /// anchors
   bool hasMoverSlack = true;
-  FinePlaces fine;  ///< where there are more anchors, if the style's marks are smaller there
+  FidelityField fidelity;  ///< where DensityRule::faithfulFactor applies
 };
 
 /// The anchors of a style's marks. They are spawned where the image has too few, follow the surface

@@ -231,13 +231,14 @@ void StrokeSet::State::traceListed(gpu::Program& program, std::size_t groups,
       .set("maxColour", rule.maxColourPerSecond * static_cast<float>(hal::toSeconds(step)))
       .set("imageScale", static_cast<float>(anchors.imageScale()))
       .set("focalPx", frame.surfaces ? focalOf(*frame.surfaces, frame) : 0.0F)
-      .set("layer", glm::vec2(rule.layer, rule.layers));
+      .set("layer", glm::vec2(rule.layer, rule.layers))
+      .set("width", rule.widthPx);
   if (program.hasUniform("beside")) program.set("beside", rule.besidePx);
   if (program.hasUniform("backgroundActivity"))
     program.texture("backgroundActivity", layerTextures.activityOf(layers));
   if (program.hasUniform("hasSegments")) program.set("hasSegments", borders != nullptr ? 1 : 0);
   rule.focus.bind(program);
-  (rule.finer ? rule.fine : FinePlaces{}).bind(program);
+  (rule.isFaithful ? rule.fidelity : FidelityField{}).bind(program);
   program.dispatchListed(lists, groups, program.groupsFor({static_cast<int>(slots), 1}),
                          GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -266,7 +267,7 @@ void StrokeSet::State::layOut(const AnchorSet& anchors, const StrokeRule& rule) 
       .set("isLimited", rule.mixtures != nullptr ? 1 : 0)
       .set("jitter", rule.jitter)
       .set("points", 8);
-  rule.fine.bind(lay);
+  rule.fidelity.bind(lay);
   lay.dispatch(allSlots(), GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

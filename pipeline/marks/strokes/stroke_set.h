@@ -11,7 +11,7 @@
 #include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/marks/anchors/anchor_set.h"
-#include "pipeline/marks/fine_places.h"
+#include "pipeline/marks/fidelity_field.h"
 #include "pipeline/marks/focus_field.h"
 #include "pipeline/marks/movers/motion_layers.h"
 #include "pipeline/marks/tensors/tensor_field.h"
@@ -72,11 +72,11 @@ struct StrokeRule {
   /// Away from its places, the layer is painted by the part of its anchors that
   /// shaders/focus.glsl gives, those of the lowest ranks; within them, detail counts more.
   FocusField focus;
-  /// There strokes have less jitter, and those of layers that are `finer` there are also narrower
-  /// and shorter, are wanted where there is less detail, end at smaller differences of colour, and
-  /// stress what they depict.
-  FinePlaces fine;
-  bool finer = false;
+  /// Where fidelity is higher, strokes have less jitter; those of a layer that is faithful are also
+  /// narrower and shorter, are wanted where there is less detail, end at smaller differences of
+  /// colour, and stress what they depict.
+  FidelityField fidelity;
+  bool isFaithful = false;
   int layer = 0;  ///< from the broadest, 0
   int layers = 1;
   /// Whether strokes end at the borders of models, their patches and movers (thesis §5.5). If not,

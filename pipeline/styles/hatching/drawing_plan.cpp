@@ -50,8 +50,8 @@ glm::vec3 inkColourOf(const HatchingParameters& p) {
   return {p.inkRed, p.inkGreen, p.inkBlue};
 }
 
-marks::FinePlaces finePlacesOf(const HatchingParameters& p, const scene::ArFrame& frame) {
-  return marks::finePlacesOfFaces(frame, p.faces, p.spacing * hatchScale(frame.full()));
+marks::FidelityField fidelityOf(const HatchingParameters& p, const scene::ArFrame& frame) {
+  return marks::fidelityOfFaces(frame, p.faces, p.spacing * hatchScale(frame.full()));
 }
 
 HatchRule hatchRuleOf(const HatchingParameters& p, const scene::ArFrame& frame, std::size_t set) {
@@ -79,7 +79,7 @@ HatchRule hatchRuleOf(const HatchingParameters& p, const scene::ArFrame& frame, 
       std::chrono::duration_cast<hal::Duration>(std::chrono::duration<double>(p.fadeTimeSeconds));
   rule.paint = glm::vec4(inkColourOf(p), static_cast<float>(p.opacity));
   rule.colour = static_cast<float>(p.colour);
-  rule.fine = finePlacesOf(p, frame);
+  rule.fidelity = fidelityOf(p, frame);
   return rule;
 }
 

@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "hal/pixel_format.h"
-#include "pipeline/marks/fine_places.h"
+#include "pipeline/marks/fidelity_field.h"
 #include "pipeline/scene/render/ar_frame.h"
 #include "pipeline/styles/hatching/hatch_lines.h"
 #include "pipeline/styles/hatching/hatching_parameters.h"
@@ -29,7 +29,7 @@ DrawingPlan drawingPlanOf(const HatchingParameters& p, hal::FrameSize full);
 HatchRule hatchRuleOf(const HatchingParameters& p, const scene::ArFrame& frame, std::size_t set);
 
 /// Where contours show more than elsewhere.
-marks::FinePlaces finePlacesOf(const HatchingParameters& p, const scene::ArFrame& frame);
+marks::FidelityField fidelityOf(const HatchingParameters& p, const scene::ArFrame& frame);
 
 /// The factor on lengths, by the size of the full image.
 double hatchScale(hal::FrameSize full);

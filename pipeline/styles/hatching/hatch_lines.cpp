@@ -64,7 +64,7 @@ void bindHatchTone(gpu::Program& program, const scene::ArFrame& frame, const gpu
       .set("band", rule.band)
       .set("swell", rule.swell)
       .set("width", rule.widthPx);
-  rule.fine.bind(program);
+  rule.fidelity.bind(program);
 }
 
 HatchLines::HatchLines(const gpu::ShaderLibrary& library, hal::FrameSize full,

@@ -13,9 +13,9 @@
 #include "pipeline/gpu/programs/program.h"
 #include "pipeline/gpu/programs/shader_library.h"
 #include "pipeline/gpu/texture.h"
-#include "pipeline/marks/fine_places.h"
 #include "pipeline/marks/anchors/anchor_set.h"
 #include "pipeline/marks/anchors/point_bins.h"
+#include "pipeline/marks/fidelity_field.h"
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/marks/movers/layer_textures.h"
 #include "pipeline/marks/movers/motion_layers.h"
@@ -57,7 +57,7 @@ struct HatchRule {
   glm::vec4 paint{0.0F, 0.0F, 0.0F, 1.0F};
   float colour = 0.0F;  ///< in [0, 1]: how much of the image's colour the paint takes
   float rankColour = 0.0F;
-  marks::FinePlaces fine;  ///< where lines leave more to contours
+  marks::FidelityField fidelity;  ///< where lines leave more to contours
 };
 
 /// The lines of one direction of hatching, each at an anchor of its own: traced along the tensor

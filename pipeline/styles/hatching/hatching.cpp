@@ -227,7 +227,7 @@ void Hatching::State::findContours(const scene::ArFrame& frame, const HatchingPa
   const auto step = std::max(
       kMinContourStep,
       static_cast<float>(p.contourWidth * hatchScale(frame.full()) * frame.pixelsOfFull().x));
-  const marks::FinePlaces fine = finePlacesOf(p, frame);
+  const marks::FidelityField fidelity = fidelityOf(p, frame);
   const auto bindField = [&](gpu::Program& pass) {
     pass.texture("field", field.resolved(0))
         .texture("modelField", field.resolvedModels(0))
@@ -239,7 +239,7 @@ void Hatching::State::findContours(const scene::ArFrame& frame, const HatchingPa
         .set("size", glm::vec2(canvas->size.width, canvas->size.height))
         .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
         .set("step_", step);
-    fine.bind(pass);
+    fidelity.bind(pass);
   };
   bindField(contourEdges.use());
   contourEdges.texture("luma", tone.luma()).drawFullscreen(canvas->edgesTarget);

@@ -14,6 +14,8 @@ namespace {
 /// Lengths are given for pictures of so many (640x480).
 constexpr double kReferencePixels = 307200.0;
 constexpr double kMinPixels = 3.0;
+/// Strokes of half the width and a third of the length, in more layers.
+constexpr float kFaithfulFactor = 13.0F;
 
 std::size_t countOf(const PainterlyParameters& p) {
   return static_cast<std::size_t>(p.layers);
@@ -62,6 +64,7 @@ marks::AnchorOptions anchorsOf(const LayerPlan& plan, std::size_t layer) {
     density.detailFactor = 2.5F;
     density.detailRange = {0.42F, 1.12F};
   }
+  if (layer + 1 == plan.layers) density.faithfulFactor = kFaithfulFactor;
   return {.density = density,
           .seed = static_cast<unsigned>(plan.seed) * 8U + static_cast<unsigned>(layer),
           .accentPixels = besideOf(plan, layer)};

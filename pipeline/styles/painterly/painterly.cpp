@@ -15,7 +15,7 @@
 #include "pipeline/gpu/programs/program.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/marks/anchors/anchor_set.h"
-#include "pipeline/marks/fine_places.h"
+#include "pipeline/marks/fidelity_field.h"
 #include "pipeline/marks/focus_field.h"
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/marks/movers/layer_textures.h"
@@ -233,20 +233,20 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
   painting->field.update(frame, *frame.colour, painting->motion, fieldOf(p), movers,
                          &painting->segments);
   const marks::FocusField focus = focusOf(frame, p);
-  const marks::FinePlaces fine =
-      marks::finePlacesOfFaces(frame, p.faces, painting->plan.finestPixels);
+  const marks::FidelityField fidelity =
+      marks::fidelityOfFaces(frame, p.faces, painting->plan.finestPixels);
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
     Layer& layer = *painting->layers[i];
     if (p.coherence <= 0.0) layer.anchors.beginAnew();
     marks::AnchorHold hold = anchorHoldOf(p);
     const bool isFinest = i + 1 == painting->layers.size();
-    if (isFinest) hold.fine = fine;
+    if (isFinest) hold.fidelity = fidelity;
     layer.anchors.advance(frame, painting->motion, hold, movers, &painting->field);
     marks::StrokeRule rule = ruleOf(p, painting->plan, i, painting->motion.noiseLevels());
     rule.mixtures = mixtures ? &*mixtures : nullptr;
     rule.focus = focus;
-    rule.fine = fine;
-    rule.finer = isFinest;
+    rule.fidelity = fidelity;
+    rule.isFaithful = isFinest;
     const double width = widthOf(painting->plan, i) * frame.pixelsOfFull().x;
     const double texel = kTexelOfWidth * width;
     layer.strokes.update(frame, layer.anchors, painting->field,

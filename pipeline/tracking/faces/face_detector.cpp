@@ -24,13 +24,13 @@ constexpr float kNearRatio = 1.25F;
 constexpr double kGroupTolerance = 0.25;  // of a face's side: hits that are one face
 
 /// A size of faces, and what looking for it in the whole image costs.
-struct Size {
+struct FaceSize {
   int sidePx;
   double cost;
 };
 
-std::vector<Size> sizesFor(cv::Size image) {
-  std::vector<Size> sizes;
+std::vector<FaceSize> sizesFor(cv::Size image) {
+  std::vector<FaceSize> sizes;
   for (double reduction = 1.0;; reduction *= kSizeRatio) {
     const int side = cvRound(FaceDetector::kLeastSidePx * reduction);
     if (side >= std::min(image.width, image.height)) return sizes;
@@ -54,7 +54,7 @@ FoundFace faceOf(cv::Point2f corner, float side, int hits) {
 struct FaceDetector::State {
   cv::CascadeClassifier classifier;
   cv::Size image;
-  std::vector<Size> sizes;
+  std::vector<FaceSize> sizes;
   double wholeCost = 0.0;
   std::size_t size = 0;  // the next one that is looked for
   int row = 0;           // the first one where it has not been
@@ -67,7 +67,7 @@ struct FaceDetector::State {
     image = given;
     sizes = sizesFor(image);
     wholeCost = 0.0;
-    for (const Size& each : sizes) wholeCost += each.cost;
+    for (const FaceSize& each : sizes) wholeCost += each.cost;
     restart();
   }
   void restart() {
@@ -75,13 +75,13 @@ struct FaceDetector::State {
     row = 0;
     hits.clear();
   }
-  double look(const cv::Mat& picture, double cost);
+  double searchStrip(const cv::Mat& picture, double cost);
   void group();
 };
 
 /// Looks for the next size in as many rows as the cost allows; gives the cost.
-double FaceDetector::State::look(const cv::Mat& picture, double cost) {
-  const Size& looked = sizes[size];
+double FaceDetector::State::searchStrip(const cv::Mat& picture, double cost) {
+  const FaceSize& looked = sizes[size];
   const int rows = image.height - looked.sidePx;
   const double costOfRow = looked.cost / rows;
   // A strip of fewer rows costs more for what its neighbours share.
@@ -108,7 +108,10 @@ void FaceDetector::State::group() {
   for (std::size_t i = 0; i < hits.size(); ++i) {
     found.push_back(faceOf(hits[i].tl(), static_cast<float>(hits[i].width), counts[i]));
   }
-  std::ranges::stable_sort(found, std::greater<>(), &FoundFace::hits);
+  std::ranges::sort(found, [](const FoundFace& a, const FoundFace& b) {
+    return std::tie(b.hits, a.centre.y, a.centre.x, a.sidePx) <
+           std::tie(a.hits, b.centre.y, b.centre.x, b.sidePx);
+  });
 }
 
 FaceDetector::FaceDetector(std::string_view cascade) : state_(std::make_unique<State>()) {
@@ -130,7 +133,7 @@ bool FaceDetector::search(const cv::Mat& image, double part) {
     s.found.clear();
   }
   double left = part * s.wholeCost;
-  while (s.size < s.sizes.size() && left > 0.0) left -= s.look(image, left);
+  while (s.size < s.sizes.size() && left > 0.0) left -= s.searchStrip(image, left);
   if (s.size < s.sizes.size()) return false;
   s.group();
   s.restart();
@@ -141,24 +144,20 @@ std::optional<FoundFace> FaceDetector::findNear(const cv::Mat& image, const Foun
   State& s = *state_;
   const int reach = cvRound(kNearSides * earlier.sidePx);
   const cv::Rect all({}, image.size());
-  const cv::Rect around =
-      all & cv::Rect(cvRound(earlier.centre.x) - reach, cvRound(earlier.centre.y) - reach,
-                     2 * reach, 2 * reach);
+  const cv::Rect around = all & cv::Rect(cvRound(earlier.centre.x) - reach,
+                                         cvRound(earlier.centre.y) - reach, 2 * reach, 2 * reach);
   const int least = std::max(kLeastSidePx, cvRound(earlier.sidePx / kNearRatio));
-  const int most = cvRound(earlier.sidePx * kNearRatio);
+  const int largest = cvRound(earlier.sidePx * kNearRatio);
   if (std::min(around.width, around.height) < least) return std::nullopt;
   s.classifier.detectMultiScale(image(around), s.some, kSizeRatio, 0, 0, {least, least},
-                                {most, most});
-  if (s.some.empty()) return std::nullopt;
-  cv::Point2f corner;
-  float side = 0.0F;
-  const auto count = static_cast<float>(s.some.size());
+                                {largest, largest});
   std::ranges::sort(s.some, comesBefore);
-  for (const cv::Rect& each : s.some) {
-    corner += cv::Point2f(each.tl() + around.tl()) / count;
-    side += static_cast<float>(each.width) / count;
-  }
-  return faceOf(corner, side, std::max(earlier.hits, static_cast<int>(s.some.size())));
+  cv::groupRectangles(s.some, s.counts, kLeastHits - 1, kGroupTolerance);
+  if (s.some.empty()) return std::nullopt;
+  const auto most = std::ranges::max_element(s.counts);
+  const cv::Rect& box = s.some[static_cast<std::size_t>(most - s.counts.begin())];
+  return faceOf(box.tl() + around.tl(), static_cast<float>(box.width),
+                std::max(earlier.hits, *most));
 }
 
 const std::vector<FoundFace>& FaceDetector::found() const {

@@ -23,7 +23,7 @@ struct FoundFace {
 /// OpenCV's threads.
 class FaceDetector {
  public:
-  /// `cascade`: one of faceCascades().
+  /// `cascade`: one of faceCascades(). Throws hal::Failure if OpenCV does not read it.
   explicit FaceDetector(std::string_view cascade);
   ~FaceDetector();
   FaceDetector(const FaceDetector&) = delete;
@@ -38,8 +38,8 @@ class FaceDetector {
   /// Searches on in `image` (CV_8UC1) for this part of a search, in (0, 1]; an image of another
   /// size begins anew. True when all of a search has been done: found() is new.
   bool search(const cv::Mat& image, double part);
-  /// Looks for it in this image: less than half its side from where it was found in an earlier
-  /// frame, and of about its size.
+  /// Looks for a face in this image that was found in an earlier one: less than half its side from
+  /// there, and of about its size. Nothing if there is none.
   std::optional<FoundFace> findNear(const cv::Mat& image, const FoundFace& earlier);
   /// What the last whole search found, the surest first.
   const std::vector<FoundFace>& found() const;

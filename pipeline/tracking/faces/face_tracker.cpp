@@ -17,46 +17,54 @@ namespace pleinair::tracking {
 namespace {
 
 constexpr int kLongSidePx = 320;
-constexpr int kSureHits = 4;      // of a face that was not known; of fewer, two searches in turn
-constexpr int kPatchPx = 24;      // a face's looks: so many px a side
-constexpr int kReachPx = 6;       // of these, that it moves in a frame, at most
-constexpr float kBorder = 0.1F;   // of the side, around it, that its looks include
-constexpr float kAlike = 0.6F;    // correlation from which it is the same face
-constexpr float kLearns = 0.8F;   // from which its looks follow it
-constexpr float kGrowth = 1.04F;        // of its side in a frame, that is tried
-constexpr float kClearlyMore = 0.005F;  // alike, from which it has grown
-constexpr double kLearning = 0.1; // part of its looks that is new, a frame
+constexpr double kSearchSeconds = 0.55;
+/// Parts of a search that a frame does, whatever the rate of frames.
+constexpr double kLeastPart = 1.0 / 40.0;
+constexpr double kMostPart = 1.0 / 6.0;
+constexpr double kMostStepSeconds = 1.0;
+/// Hits of a face that was not known; one of fewer must be found by two searches in turn.
+constexpr int kSureHits = 4;
+
+constexpr int kPatchPx = 24;     // side of a patch, which is a face's appearance
+constexpr int kReachPx = 6;      // of these, that it moves in a frame, at most
+constexpr float kBorder = 0.1F;  // of the side, around it, that its patch includes
+/// A px of its patch, in its sides.
+constexpr float kPxOfSide = (1.0F + 2.0F * kBorder) / kPatchPx;
+constexpr float kSame = 0.6F;      // correlation from which it is the same face
+constexpr float kClear = 0.8F;     // from which its appearance follows it
+constexpr float kGrowth = 1.04F;   // of its side in a frame, that is tried
+constexpr float kBetter = 0.005F;  // correlation by which another size must be better
+constexpr double kLearning = 0.1;  // part of its appearance that is new, a frame
+
 constexpr double kFoundSeconds = 4.0;  // that it is followed without being found
 constexpr double kComingSeconds = 0.4;
 constexpr double kGoingSeconds = 0.6;
-constexpr float kRest = 0.07F;  // of its side: so far it goes before its place follows
-constexpr float kNear = 0.6F;   // of the side: what is found there is the same face
-constexpr float kTwins = 0.4F;  // of the side: two that are so near are one
-constexpr float kMostRatio = 1.7F;  // of its sides
-constexpr float kFoundShare = 0.5F; // of what is found, in what is known
-
-/// A px of its looks, in its sides.
-constexpr float kPxOfSide = (1.0F + 2.0F * kBorder) / kPatchPx;
+constexpr float kDeadBand = 0.07F;   // of its side: so far it goes before its place follows
+constexpr float kNear = 0.6F;        // of the side: what is found there is the same face
+constexpr float kMostRatio = 1.7F;   // of its sides
+constexpr float kDuplicate = 0.4F;   // of the side: two that are so near are one
+constexpr float kFoundShare = 0.5F;  // of what is found, in what is known
 
 /// A face that is followed, px of the reduced image.
-struct Known {
-  cv::Point2f centre;  // where it is
+struct KnownFace {
+  cv::Point2f centre;
   float side = 0.0F;
-  cv::Point2f restCentre;  // where it is said to be
-  float restSide = 0.0F;
-  cv::Mat looks;
+  cv::Point2f reportedCentre;
+  float reportedSide = 0.0F;
+  cv::Mat patch;
   double sinceFound = 0.0;  // s
   double presence = 0.0;
   bool isLost = false;
 };
 
-/// The square around a centre, with px of its own, `reach` of them wider on each side.
-void cut(const cv::Mat& picture, cv::Point2f centre, float side, int reach, cv::Mat& patch) {
-  const float pxOfOwn = kPxOfSide * side;
+/// Samples the square around a centre, `reach` px of the patch wider on each side.
+void samplePatch(const cv::Mat& picture, cv::Point2f centre, float side, int reach,
+                 cv::Mat& patch) {
+  const float scale = kPxOfSide * side;
   const int size = kPatchPx + 2 * reach;
-  const float first = -0.5F * static_cast<float>(size - 1) * pxOfOwn;
-  const cv::Matx23f fromOwn(pxOfOwn, 0.0F, centre.x + first, 0.0F, pxOfOwn, centre.y + first);
-  cv::warpAffine(picture, patch, fromOwn, {size, size}, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
+  const float first = -0.5F * static_cast<float>(size - 1) * scale;
+  const cv::Matx23f fromPatch(scale, 0.0F, centre.x + first, 0.0F, scale, centre.y + first);
+  cv::warpAffine(picture, patch, fromPatch, {size, size}, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
                  cv::BORDER_REPLICATE);
 }
 
@@ -77,6 +85,12 @@ float peakOf(float before, float here, float after) {
 }  // namespace
 
 struct FaceTracker::State {
+  struct Match {
+    cv::Point2f centre;
+    float side;
+    float correlation;
+  };
+
   /// Each search is by the next one: what one of them does not find, another one may. The first
   /// search is by all.
   std::array<FaceDetector, kFaceCascades> detectors{FaceDetector(faceCascades()[0]),
@@ -84,29 +98,25 @@ struct FaceTracker::State {
   std::size_t detector = 0;
   cv::Mat reduced;
   cv::Mat patch;
-  cv::Mat scores;
-  std::vector<Known> known;
+  cv::Mat correlations;
+  std::vector<KnownFace> known;
   std::vector<FoundFace> before;  // what the search before the last one found
   std::vector<Face> faces;
   hal::FrameSize frameSize;
   hal::TimePoint lastTime;
   bool hasPast = false;
 
-  struct Match {
-    cv::Point2f centre;
-    float side;
-    float alike;  // correlation
-  };
-
   const cv::Mat& reduce(const LumaPyramid& pyramid);
-  Match match(const cv::Mat& picture, const Known& face, float side);
-  void followLooks(const cv::Mat& picture, Known& face);
-  void search(const cv::Mat& picture);
+  Match match(const cv::Mat& picture, const KnownFace& face, float side);
+  void followAppearance(const cv::Mat& picture, KnownFace& face);
+  void search(const cv::Mat& picture, double seconds);
   void take(const cv::Mat& picture, FaceDetector& by);
-  void joinTwins();
-  Known* nearest(const FoundFace& found);
+  void takeFound(const cv::Mat& picture, const FoundFace& found);
+  void mergeDuplicates();
+  KnownFace* nearest(const FoundFace& found);
   bool isSure(const FoundFace& found) const;
-  void report(double seconds, const LumaPyramid& pyramid, const cv::Mat& picture);
+  void age(double seconds);
+  void report(const LumaPyramid& pyramid, const cv::Mat& picture);
 };
 
 const cv::Mat& FaceTracker::State::reduce(const LumaPyramid& pyramid) {
@@ -119,46 +129,46 @@ const cv::Mat& FaceTracker::State::reduce(const LumaPyramid& pyramid) {
   return reduced;
 }
 
-/// The place nearby of what looks most like a face of this side.
-FaceTracker::State::Match FaceTracker::State::match(const cv::Mat& picture, const Known& face,
+/// The place nearby of what correlates most with a face of this side.
+FaceTracker::State::Match FaceTracker::State::match(const cv::Mat& picture, const KnownFace& face,
                                                     float side) {
-  cut(picture, face.centre, side, kReachPx, patch);
-  cv::matchTemplate(patch, face.looks, scores, cv::TM_CCOEFF_NORMED);
+  samplePatch(picture, face.centre, side, kReachPx, patch);
+  cv::matchTemplate(patch, face.patch, correlations, cv::TM_CCOEFF_NORMED);
   double best = 0.0;
   cv::Point at;
-  cv::minMaxLoc(scores, nullptr, &best, nullptr, &at);
-  const auto scoreAt = [&](int dx, int dy) {
-    const int x = std::clamp(at.x + dx, 0, scores.cols - 1);
-    const int y = std::clamp(at.y + dy, 0, scores.rows - 1);
-    return scores.at<float>(y, x);
+  cv::minMaxLoc(correlations, nullptr, &best, nullptr, &at);
+  const auto correlationAt = [&](int dx, int dy) {
+    const int x = std::clamp(at.x + dx, 0, correlations.cols - 1);
+    const int y = std::clamp(at.y + dy, 0, correlations.rows - 1);
+    return correlations.at<float>(y, x);
   };
-  const float own = scoreAt(0, 0);
+  const float here = correlationAt(0, 0);
   const cv::Point2f moved(
-      static_cast<float>(at.x - kReachPx) + peakOf(scoreAt(-1, 0), own, scoreAt(1, 0)),
-      static_cast<float>(at.y - kReachPx) + peakOf(scoreAt(0, -1), own, scoreAt(0, 1)));
+      static_cast<float>(at.x - kReachPx) + peakOf(correlationAt(-1, 0), here, correlationAt(1, 0)),
+      static_cast<float>(at.y - kReachPx) +
+          peakOf(correlationAt(0, -1), here, correlationAt(0, 1)));
   return {face.centre + moved * (side * kPxOfSide), side, static_cast<float>(best)};
 }
 
-/// To the place nearby, and the size, that look most like it.
-void FaceTracker::State::followLooks(const cv::Mat& picture, Known& face) {
+void FaceTracker::State::followAppearance(const cv::Mat& picture, KnownFace& face) {
   Match best = match(picture, face, face.side);
   for (const float side : {face.side * kGrowth, face.side / kGrowth}) {
     const Match other = match(picture, face, side);
-    if (other.alike > best.alike + kClearlyMore) best = other;
+    if (other.correlation > best.correlation + kBetter) best = other;
   }
-  face.isLost = best.alike < kAlike;
+  face.isLost = best.correlation < kSame;
   if (face.isLost) return;
   face.centre = best.centre;
   face.side = best.side;
-  if (best.alike < kLearns) return;
-  cut(picture, face.centre, face.side, 0, patch);
-  cv::addWeighted(face.looks, 1.0 - kLearning, patch, kLearning, 0.0, face.looks);
+  if (best.correlation < kClear) return;
+  samplePatch(picture, face.centre, face.side, 0, patch);
+  cv::addWeighted(face.patch, 1.0 - kLearning, patch, kLearning, 0.0, face.patch);
 }
 
-Known* FaceTracker::State::nearest(const FoundFace& found) {
-  Known* nearest = nullptr;
+KnownFace* FaceTracker::State::nearest(const FoundFace& found) {
+  KnownFace* nearest = nullptr;
   float least = 1.0F;
-  for (Known& each : known) {
+  for (KnownFace& each : known) {
     const float distance = distanceOf(each.centre, each.side, found.centre, found.sidePx);
     if (distance >= least) continue;
     least = distance;
@@ -175,7 +185,7 @@ bool FaceTracker::State::isSure(const FoundFace& found) const {
          });
 }
 
-void FaceTracker::State::search(const cv::Mat& picture) {
+void FaceTracker::State::search(const cv::Mat& picture, double seconds) {
   if (!hasPast) {
     for (FaceDetector& each : detectors) {
       each.search(picture, 1.0);
@@ -184,79 +194,92 @@ void FaceTracker::State::search(const cv::Mat& picture) {
     return;
   }
   FaceDetector& by = detectors.at(detector);
-  if (!by.search(picture, 1.0 / kSearchFrames)) return;
+  if (!by.search(picture, std::clamp(seconds / kSearchSeconds, kLeastPart, kMostPart))) return;
   take(picture, by);
   detector = (detector + 1) % kFaceCascades;
 }
 
-/// Takes what a search has found.
+/// Takes what a search has found. It was of several frames: what it has found may have gone since,
+/// so it is looked for once more.
 void FaceTracker::State::take(const cv::Mat& picture, FaceDetector& by) {
+  std::size_t asked = 0;
   for (const FoundFace& earlier : by.found()) {
-    // A search is of several frames: what it has found may have gone on since.
-    const std::optional<FoundFace> here = by.findNear(picture, earlier);
-    if (!here) continue;
-    const FoundFace& found = *here;
-    Known* face = nearest(found);
-    const bool isNew = face == nullptr;
-    if (isNew && !isSure(found)) continue;
-    if (isNew) {
-      face = &known.emplace_back();
-      face->restCentre = face->centre = found.centre;
-      face->restSide = face->side = found.sidePx;
-      face->presence = hasPast ? 0.0 : 1.0;
-    } else {
-      face->centre += kFoundShare * (found.centre - face->centre);
-      face->side += kFoundShare * (found.sidePx - face->side);
-    }
-    face->sinceFound = 0.0;
-    face->isLost = false;
-    cut(picture, face->centre, face->side, 0, face->looks);
+    if (asked == kMaxFaces) break;
+    if (nearest(earlier) == nullptr && !isSure(earlier)) continue;
+    ++asked;
+    const std::optional<FoundFace> now = by.findNear(picture, earlier);
+    if (now) takeFound(picture, *now);
   }
   before = by.found();
-  joinTwins();
+  mergeDuplicates();
 }
 
-/// Of two that have come to the same place, the one remains that was found later, or was known first.
-void FaceTracker::State::joinTwins() {
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    const auto isTwin = [&](const Known& other) {
+void FaceTracker::State::takeFound(const cv::Mat& picture, const FoundFace& found) {
+  KnownFace* face = nearest(found);
+  if (face == nullptr) {
+    face = &known.emplace_back();
+    face->reportedCentre = face->centre = found.centre;
+    face->reportedSide = face->side = found.sidePx;
+    face->presence = hasPast ? 0.0 : 1.0;
+  } else {
+    face->centre += kFoundShare * (found.centre - face->centre);
+    face->side += kFoundShare * (found.sidePx - face->side);
+  }
+  face->sinceFound = 0.0;
+  face->isLost = false;
+  samplePatch(picture, face->centre, face->side, 0, face->patch);
+}
+
+/// Of two that have come to the same place, the one remains that was found later, or was known
+/// first.
+void FaceTracker::State::mergeDuplicates() {
+  for (std::size_t i = 0; i < known.size();) {
+    const auto isDuplicate = [&](const KnownFace& other) {
       const cv::Point2f apart = known[i].centre - other.centre;
-      return &other != &known[i] && std::hypot(apart.x, apart.y) < kTwins * known[i].side &&
+      return &other != &known[i] && std::hypot(apart.x, apart.y) < kDuplicate * known[i].side &&
              known[i].sinceFound <= other.sinceFound;
     };
-    const auto twin = std::ranges::find_if(known, isTwin);
-    if (twin == known.end()) continue;
-    known[i].presence = std::max(known[i].presence, twin->presence);
-    known.erase(twin);
-    i = static_cast<std::size_t>(-1);  // from the first again
+    const auto duplicate = std::ranges::find_if(known, isDuplicate);
+    if (duplicate == known.end()) {
+      ++i;
+      continue;
+    }
+    known[i].presence = std::max(known[i].presence, duplicate->presence);
+    known.erase(duplicate);
+    i = 0;
   }
 }
 
-/// Lets faces come and go, and says where they are.
-void FaceTracker::State::report(double seconds, const LumaPyramid& pyramid,
-                                const cv::Mat& picture) {
-  for (Known& each : known) {
+/// Lets faces come and go.
+void FaceTracker::State::age(double seconds) {
+  for (KnownFace& each : known) {
     each.sinceFound += seconds;
     const bool isThere = !each.isLost && each.sinceFound < kFoundSeconds;
     const double change = isThere ? seconds / kComingSeconds : -seconds / kGoingSeconds;
     each.presence = std::clamp(each.presence + change, 0.0, 1.0);
-    const cv::Point2f apart = each.centre - each.restCentre;
-    const float distance = std::hypot(apart.x, apart.y);
-    const float slack = kRest * each.side;
-    if (distance > slack) each.restCentre += apart * ((distance - slack) / distance);
-    const float grown = each.side - each.restSide;
-    if (std::abs(grown) > slack) each.restSide += grown - std::copysign(slack, grown);
   }
-  std::erase_if(known, [](const Known& each) {
+  std::erase_if(known, [](const KnownFace& each) {
     return each.presence <= 0.0 && (each.isLost || each.sinceFound >= kFoundSeconds);
   });
+}
+
+/// Says where they are: they follow only as far as they leave a dead band.
+void FaceTracker::State::report(const LumaPyramid& pyramid, const cv::Mat& picture) {
   const glm::dvec2 frame(pyramid.frameSize().width, pyramid.frameSize().height);
-  const glm::dvec2 frameOfOwn = frame / glm::dvec2(picture.cols, picture.rows);
+  const glm::dvec2 frameOfReduced = frame / glm::dvec2(picture.cols, picture.rows);
   faces.clear();
-  for (const Known& each : known) {
+  for (KnownFace& each : known) {
+    const float slack = kDeadBand * each.side;
+    const cv::Point2f apart = each.centre - each.reportedCentre;
+    const float distance = std::hypot(apart.x, apart.y);
+    if (distance > slack) each.reportedCentre += apart * ((distance - slack) / distance);
+    const float grown = each.side - each.reportedSide;
+    if (std::abs(grown) > slack) each.reportedSide += grown - std::copysign(slack, grown);
     if (each.presence <= 0.0) continue;
-    faces.push_back({frameOfOwn * (glm::dvec2(each.restCentre.x, each.restCentre.y) + 0.5),
-                     frameOfOwn.x * each.restSide, each.presence});
+    const glm::dvec2 centre(each.reportedCentre.x, each.reportedCentre.y);
+    faces.push_back({.centre = frameOfReduced * (centre + 0.5),
+                     .sidePx = frameOfReduced.x * each.reportedSide,
+                     .presence = each.presence});
   }
 }
 
@@ -270,10 +293,12 @@ std::span<const Face> FaceTracker::follow(LumaFrame& frame, hal::TimePoint captu
   if (isCut || frame.size() != s.frameSize) reset();
   const auto pyramid = frame.pyramid();
   const cv::Mat& picture = s.reduce(*pyramid);
-  const double seconds = s.hasPast ? hal::toSeconds(captureTime - s.lastTime) : 0.0;
-  for (Known& each : s.known) s.followLooks(picture, each);
-  s.search(picture);
-  s.report(std::max(seconds, 0.0), *pyramid, picture);
+  const double step = s.hasPast ? hal::toSeconds(captureTime - s.lastTime) : 0.0;
+  const double seconds = std::clamp(step, 0.0, kMostStepSeconds);
+  for (KnownFace& each : s.known) s.followAppearance(picture, each);
+  s.age(seconds);
+  s.search(picture, seconds);
+  s.report(*pyramid, picture);
   s.frameSize = frame.size();
   s.lastTime = captureTime;
   s.hasPast = true;

@@ -6,7 +6,8 @@
 //          detailRange, from and up to which their detail multiplies the rule's numbers, by
 //          detailFactor at most; ids and forms (ArFrame) and
 //          their pixelsOfFull if hasObjects, within objectBounds; fullSize; mover_labels.glsl's and
-//          fine_places.glsl's: there, more anchors are wanted.
+//          fidelity.glsl's,
+//          and faithfulFactor: where fidelity is 1, the numbers are multiplied by this.
 //          Anchors of the background and of movers are counted apart; each patch of a model that
 //          shows enough of itself gets one at least; joints count less.
 // Outputs: births of each cell; anchors: those to remove, and dormant ones that wake; nextToWake: 0
@@ -35,15 +36,15 @@ uniform highp sampler2D moverField;
 uniform vec2 moverScale;
 uniform float detailFactor;
 uniform vec2 detailRange;
+uniform float faithfulFactor;
 #include "pipeline/marks/movers/shaders/mover_labels.glsl"
-#include "pipeline/marks/shaders/fine_places.glsl"
+#include "pipeline/marks/shaders/fidelity.glsl"
 
 const float kMinShare = 0.12;  // of a cell: a smaller part gets no anchor of its own
 
 const int kMaxPatches = 6;  // that are told apart in a cell
 
-const float kFineFactor = 13.0;  // of a cell's numbers, in fine places
-const float kFineTight = 0.5;  // from which fineness on cells are kept at their target
+const float kFaithful = 0.5;  // fidelity from which cells are kept at their target
 
 const int kBesideJoints = 3;  // so much more a pixel counts there: strokes cross joints
 
@@ -118,7 +119,7 @@ vec2 factorsOf(ivec2 cell) {
   vec2 detail = vec2(textureLod(detailField, px * detailScale, 0.0).w,
                      textureLod(moverField, px * moverScale, 0.0).w);
   vec2 factors = 1.0 + (detailFactor - 1.0) * smoothstep(vec2(detailRange.x), vec2(detailRange.y), detail);
-  return mix(factors, vec2(kFineFactor), finelyAt(px));
+  return max(factors, vec2(mix(1.0, faithfulFactor, fidelityAt(px))));
 }
 
 uint rounded(float number) { return uint(number + 0.5); }
@@ -206,7 +207,7 @@ void main() {
   float share = objects.share;
   bool isGap = isAmongFull(at);
   // The strokes of those under models reach beyond them.
-  bool isFine = finelyAt((vec2(at) + 0.5) * float(cellPixels)) > kFineTight;
+  bool isFine = fidelityAt((vec2(at) + 0.5) * float(cellPixels)) > kFaithful;
   uint inImage = wanted(whole * (1.0 - share), factors.x, cell.inImage + cell.underModels, isGap && !isFine, isFine);
   uint onObjects = wanted(whole * share, 1.0, cell.onObjects, isGap, false);
   // A stroke paints its own patch only.

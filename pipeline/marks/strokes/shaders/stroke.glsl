@@ -18,11 +18,18 @@ struct Stroke {
 
 uint labelOfStroke(uint state) { return state & 8191u; }
 
-// Of the width: the stretch of the surface across the stroke, in [1/2, 2). 0 stands for 1.
+// Of the width, in [1/2, 2): on models, the stretch of the surface across the stroke. 0 stands for 1.
 const int kGirthBits = 12;
 const int kGirthShift = 13;
 float girthOf(uint state) {
   return exp2(float(bitfieldExtract(int(state), kGirthShift, kGirthBits)) / 2048.0);
+}
+// A stroke's fidelity (fidelity.glsl) is kept as its girth, but on models, where girth is the
+// surface's.
+const float kFaithfulGirth = 0.55;  // where fidelity is 1
+float girthOfFidelity(float fidelity) { return mix(1.0, kFaithfulGirth, fidelity); }
+float fidelityOf(uint state) {
+  return clamp((1.0 - girthOf(state)) / (1.0 - kFaithfulGirth), 0.0, 1.0);
 }
 uint withGirth(uint state, float girth) {
   int octaves = int(round(2048.0 * clamp(log2(girth), -1.0, 0.999)));

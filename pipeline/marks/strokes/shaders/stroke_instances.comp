@@ -1,6 +1,6 @@
 // Purpose: the drawn form of each stroke: the control points of its spline, in painting order.
 // Inputs:  anchors, strokes, ranks (stroke_order.comp); segment: px; width: px, widthSpread: random
-//          part of it; opacity; leaveLight; mixture.glsl's if isLimited; fine_places.glsl's; jitter: of hue,
+//          part of it; opacity; leaveLight; mixture.glsl's if isLimited; fidelity.glsl's; jitter: of hue,
 //          saturation, value.
 // Outputs: instances: 8 points (px of the full image), colour (sRGB-coded) and opacity; half the
 //          width (px), the brush's variant, plus 4 if it is mirrored, the label of what the stroke
@@ -9,7 +9,7 @@
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/gpu/images/shaders/luma.glsl"
 #include "pipeline/marks/anchors/shaders/anchor.glsl"
-#include "pipeline/marks/shaders/fine_places.glsl"
+#include "pipeline/marks/shaders/fidelity.glsl"
 #include "pipeline/marks/shaders/mixture.glsl"
 #include "pipeline/marks/strokes/shaders/stroke.glsl"
 #include "pipeline/marks/strokes/shaders/stroke_instance.glsl"
@@ -33,7 +33,8 @@ uniform int points;  // 8; a uniform, so that compilers keep the loop over them
 const float kGreyHue = 0.4;
 const float kModelValues = 0.5;  // of the jitter: models turn, which shows it more
 const float kSpeck = 0.5;
-const float kFineJitter = 0.25;  // of the jitter, in fine places
+const float kFaithfulJitter = 0.25;  // of the jitter, where fidelity is 1
+const float kFaithfulSpeck = 0.4;    // of what is a speck
 
 // The point `s` segments along the stroke, from its anchor on.
 vec2 along(uint slot, float s) {
@@ -66,7 +67,7 @@ void main() {
   }
   vec3 colour = strokes[slot].colour;
   bool isOnModel = isPatch(labelOfStroke(strokes[slot].state));
-  vec3 jitters = jitter * (isOnModel ? 1.0 : mix(1.0, kFineJitter, finelyAt(px)));
+  vec3 jitters = jitter * (isOnModel ? 1.0 : mix(1.0, kFaithfulJitter, fidelityAt(px)));
   float luma = lumaOf(colour);
   vec3 hue = vec3(randomOf(seed, 0x21u), randomOf(seed, 0x22u), randomOf(seed, 0x23u));
   hue -= lumaOf(hue);
@@ -78,7 +79,9 @@ void main() {
   colour *= 1.0 + 2.0 * values * randomOf(seed, 0x25u);
   float light = smoothstep(0.2, 0.95, luma);
   // A stroke cut short on both sides is a speck with little support: paint it thinly.
-  float stands = mix(kSpeck, 1.0, smoothstep(0.8, 2.2, strokes[slot].lengths.x + strokes[slot].lengths.y));
+  float shorter = isOnModel ? 1.0 : mix(1.0, kFaithfulSpeck, fidelityOf(strokes[slot].state));
+  float length_ = strokes[slot].lengths.x + strokes[slot].lengths.y;
+  float stands = mix(kSpeck, 1.0, smoothstep(0.8 * shorter, 2.2 * shorter, length_));
   colour = clamp(colour, 0.0, 1.0);
   if (isLimited) colour = mixtureOf(colour);
   instances[rank].paint.xyz = colour;

@@ -9,14 +9,14 @@
 //          with ON_MODELS; ids (ArFrame), ON_MODELS;
 //          depthRange: the near and the far plane in metres, 0: no depth; focalPx: of
 //          the full image, 0: not known; imageScale: the anchors', octaves; focus.glsl's and
-//          fine_places.glsl's; layer: its
+//          fidelity.glsl's; layer: its
 //          number and how many; the rest as in marks::StrokeRule.
 // Outputs: strokes. One invocation per stroke of its list.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/anchors/shaders/accent.glsl"
 #include "pipeline/marks/anchors/shaders/anchor.glsl"
-#include "pipeline/marks/shaders/fine_places.glsl"
+#include "pipeline/marks/shaders/fidelity.glsl"
 #include "pipeline/marks/shaders/focus.glsl"
 #include "pipeline/marks/movers/shaders/layer_blocks.glsl"
 #include "pipeline/marks/strokes/shaders/stroke.glsl"
@@ -47,6 +47,7 @@ uniform float restSlack;
 uniform float imageScale;
 uniform float focalPx;
 uniform vec2 layer;
+uniform float width;
 
 const int kList = isModel ? kOnModels : mayBeOnMover ? kMoversOnly : kWithLabels;
 const float kFocusDetail = 1.0;  // how much more detail counts in a focus
@@ -116,10 +117,10 @@ void turn(uint slot, vec4 jacobian) {
 const float kShrinking = 4.0;  // times as fast as shapes change
 const float kMoverShrinking = 20.0;
 
-const float kFineContrast = 1.0;  // more of the difference from what is around a place
-const float kFineReach = 6.0;  // px
-const float kFineGirth = 0.55;  // of the width, in fine places
-const float kFineDetail = 2.0;  // how much more detail counts there
+// Where fidelity is 1 (fidelity.glsl):
+const float kFaithfulContrast = 1.0;  // so much more of the difference from what is around
+const float kFaithfulReach = 1.5;     // widths, to what is around
+const float kSettled = 0.02;          // of fidelity: less is no change
 
 const float kModelHold = 0.25;  // of the rate at which shapes change elsewhere
 
@@ -145,18 +146,24 @@ float activityAlong(vec2 px, vec2 heading) {
   return most;
 }
 
+// From which difference on a stroke's place surely shows other content: its colour may be stressed.
+float leastOther(uint slot) {
+  float fidelity = isModel ? 0.0 : fidelityOf(strokes[slot].state);
+  return otherColour.y * (1.0 + kFaithfulContrast * fidelity);
+}
+
 // Other content has come to rest in front of the stroke if it is new and of another colour.
-bool isReplacedAt(vec2 px, vec3 colour) {
+bool isReplacedAt(uint slot, vec2 px, vec3 colour) {
   const float kNewFrames = 3.5;  // fewer than what a moving camera remembers
   vec4 known = textureLod(background, inLayers(background, px), 0.0);
   bool isNew = known.a > 0.5 && known.a < kNewFrames && moverAt(px).r < 0.5;
-  return isNew && apart(colour, known.rgb) > max(otherColour.y, 1.5 * colourThreshold);
+  return isNew && apart(colour, known.rgb) > max(leastOther(slot), 1.5 * colourThreshold);
 }
 
 // Adds a place of a stroke to what is before it: x: the largest label of a mover; y: 1 if a mover
 // has joined the background there.
-vec2 before(vec2 known, vec2 px, vec3 colour) {
-  return max(known, vec2(moverAt(px).r, isReplacedAt(px, colour) ? 1.0 : 0.0));
+vec2 before(vec2 known, uint slot, vec2 px, vec3 colour) {
+  return max(known, vec2(moverAt(px).r, isReplacedAt(slot, px, colour) ? 1.0 : 0.0));
 }
 
 // What is before a stroke of the background, or beside it.
@@ -173,7 +180,7 @@ vec2 whatIsBefore(uint slot, vec2 px) {
       at = (step == 0 ? px : at) + segment * strokes[slot].ways[i];
       if (float(step) >= strokes[slot].lengths[i / kArm]) continue;
     }
-    found = before(found, at, colour);
+    found = before(found, slot, at, colour);
   }
   return found;
 }
@@ -207,7 +214,7 @@ bool beginsAnew(uint slot, uint state, vec2 px, bool isBeside, bool hasJoined, b
   vec4 behind = textureLod(background, inLayers(background, px), 0.0);
   bool isReal = !isModel && !isVirtual(objectOf(anchors[slot].surface));
   bool isStale = isReal && !isOnMover && behind.a >= 1.0 &&
-                 apart(strokes[slot].colour, behind.rgb) > otherColour.y;
+                 apart(strokes[slot].colour, behind.rgb) > leastOther(slot);
   bool isUnder = isBehind && isPatch(labelAt(px));
   isStale = isStale && !isUnder;
   if (isReal && !isUnder && (isBehind || isBeside) && hasJoined) {
@@ -232,7 +239,7 @@ bool isWanted(uint slot, vec2 px, float seen, bool isResting, bool isNew) {
   float hash = unitOf(hashOf(anchors[slot].seed ^ 0x51u));
   // A stroke is wanted where the detail lies in its band; an existing one stays a little longer.
   float focused = focusStrength * focusAt(px);
-  focused = kFocusDetail * focused + kFineDetail * walks[gl_LocalInvocationIndex].finely;
+  focused = kFocusDetail * focused + kFaithfulDetail * walks[gl_LocalInvocationIndex].fidelity;
   float detail = (1.0 + focused) * seen + detailSpread * (hash - 0.5);
   bool isAccent = !isModel && (strokes[slot].state & kAccent) != 0u;
   float leastDetail = detailBand.x * (isAccent ? kAccentDetail : 1.0);
@@ -269,16 +276,16 @@ void markAccent(uint slot, vec2 px, vec2 heading, bool isNew) {
   strokes[slot].state = (strokes[slot].state & ~kAccent) | (narrow > least ? kAccent : 0u);
 }
 
-// The colour at a place; in fine places, with its difference from what is around it stressed.
-vec3 accented(vec2 px, Support on, float finely) {
-  vec3 own = colourAt(px, on);
-  int taps = finely > 0.0 ? 4 : 0;
+// What fidelity adds to a stroke's colour: it stresses what differs from its surroundings, as
+// portraits do. `own`: the colour there.
+vec3 stressOf(vec2 px, Support on, vec3 own, float fidelity) {
   vec3 around = vec3(0.0);
+  int taps = !isModel && fidelity > 0.0 ? 4 : 0;
   for (int i = 0; i < taps; ++i) {
-    float side = (i & 1) == 0 ? -kFineReach : kFineReach;
-    around += 0.25 * colourAt(px + ((i & 2) == 0 ? vec2(side, 0.0) : vec2(0.0, side)), on);
+    float side = (i & 1) == 0 ? -kFaithfulReach : kFaithfulReach;
+    around += 0.25 * colourAt(px + width * ((i & 2) == 0 ? vec2(side, 0.0) : vec2(0.0, side)), on);
   }
-  return taps > 0 ? clamp(own + kFineContrast * finely * (own - around), 0.0, 1.0) : own;
+  return taps > 0 ? kFaithfulContrast * fidelity * (own - around) : vec3(0.0);
 }
 
 // What is read again, of anchors and strokes, is not kept in registers through the walk.
@@ -310,8 +317,15 @@ void main() {
   float stray = wander * (unitOf(hashOf(seed ^ 0x77u)) + unitOf(hashOf(seed ^ 0x78u)) - 1.0);
   vec2 hand = vec2(cos(stray), sin(stray));
   Support on = supportOf(label, isOnMover, px);
-  float finely = isModel ? 0.0 : finelyAt(px);
-  vec3 own = accented(px, on, finely);
+  float fidelity = 0.0;
+  bool isChanging = false;
+  if (!isModel) {
+    float now = fidelityAt(px);
+    fidelity = isNew ? now : mix(now, fidelityOf(strokes[slot].state), past.x);
+    isChanging = abs(now - fidelity) > kSettled;
+  }
+  vec3 own = colourAt(px, on);
+  vec3 stress = stressOf(px, on, own, fidelity);
   float seen = detailAt(px, on);
   vec2 heading = directionAt(px, on);
   heading = vec2(hand.x * heading.x - hand.y * heading.y, hand.y * heading.x + hand.x * heading.y);
@@ -321,7 +335,7 @@ void main() {
     vec2 was = jacobian.xy * strokes[slot].ways[0].x + jacobian.zw * strokes[slot].ways[0].y;
     if (dot(was, heading) < 0.0) heading = -heading;
   }
-  walks[gl_LocalInvocationIndex] = Walk(own, seen, heading, hand, isNew, finely);
+  walks[gl_LocalInvocationIndex] = Walk(own, seen, heading, hand, stress, fidelity, isNew, isChanging);
   if (!isModel) markAccent(slot, px, heading, isNew);
   memoryBarrierShared();  // or compilers keep what they have just stored
   memoryBarrierBuffer();
@@ -342,6 +356,8 @@ void main() {
   float weight = ownWeight(layer.y - 1.0 - layer.x);
   vec3 colour = (weight * own + ahead.colour + behind.colour) /
                 (weight + ahead.weight + behind.weight);
+  fidelity = walks[gl_LocalInvocationIndex].fidelity;
+  colour = clamp(colour + walks[gl_LocalInvocationIndex].stress, 0.0, 1.0);
 
   // Before a standing camera, nothing but its content changes a stroke of the background.
   bool isResting = isStanding && !isNew && !isOnMover && !isModel;
@@ -352,9 +368,11 @@ void main() {
   // A surface carries its strokes exactly: what changes is how its field is seen.
   float most = isModel ? kModelHold : 1.0;
   float hold = mix(min(1.0 / flatHold, most), most, restless);
-  float stays = isOnMover ? past.x : pow(past.x, hold);
+  // Its lengths change with its fidelity.
+  isChanging = walks[gl_LocalInvocationIndex].isChanging;
+  float stays = isOnMover || isChanging ? past.x : pow(past.x, hold);
   vec3 change = colour - strokes[slot].colour;
-  vec2 otherHere = otherColour;
+  vec2 otherHere = otherColour * (1.0 + kFaithfulContrast * fidelity);
   float activity = 0.0;
   if (!isModel && isResting) {
     activity = activityAlong(px, heading);
@@ -363,7 +381,7 @@ void main() {
   float changed = isNew ? 0.0 : smoothstep(otherHere.x, otherHere.y, weightedLength(change));
   uint now = label | (wanted ? kWanted : 0u) | (isModel ? 0u : strokes[slot].state & kAccent);
   if (!isModel) {
-    now = withGirth(now, mix(1.0, kFineGirth, walks[gl_LocalInvocationIndex].finely));
+    now = withGirth(now, girthOfFidelity(fidelity));
   } else if (!isNew) {
     now = withGirth(now, mix(1.0, girthOf(strokes[slot].state), past.x));
   }

@@ -101,14 +101,16 @@ struct Arm {
 };
 
 // What a walk starts from: the colour and the detail at the anchor, the direction there, and by how
-// much the stroke deviates from the field; and whether nothing of it is kept.
+// much the stroke deviates from the field; its fidelity; and whether nothing of it is kept.
 struct Walk {
   vec3 colour;
   float detail;
   vec2 heading;
   vec2 hand;
+  vec3 stress;  // that its fidelity adds to the colour
+  float fidelity;
   bool isNew;
-  float finely;  // FinePlaces
+  bool isChanging;  // the fidelity
 };
 
 // In registers, these would leave none to the walk.
@@ -149,12 +151,14 @@ vec2 steered(vec2 at, vec2 heading) {
 
 const float kBehind = 0.025;  // of the image's width: so far strokes go on behind models
 
-// In fine places, of the length of an arm and of the colour threshold.
-const float kFineSteps = 0.32;
-const float kFineThreshold = 0.45;
-float stepsOfArm() { return steps * mix(1.0, kFineSteps, walks[gl_LocalInvocationIndex].finely); }
+// Where fidelity is 1 (fidelity.glsl), of an arm's length and of the colour threshold; and how much
+// more detail counts.
+const float kFaithfulSteps = 0.32;
+const float kFaithfulThreshold = 0.45;
+const float kFaithfulDetail = 2.0;
+float stepsOfArm() { return steps * mix(1.0, kFaithfulSteps, walks[gl_LocalInvocationIndex].fidelity); }
 float threshold() {
-  return colourThreshold * mix(1.0, kFineThreshold, walks[gl_LocalInvocationIndex].finely);
+  return colourThreshold * mix(1.0, kFaithfulThreshold, walks[gl_LocalInvocationIndex].fidelity);
 }
 
 // Ends an arm after so many steps.
@@ -211,7 +215,8 @@ void walk(int side, vec2 from, Support on) {
       endArm(number, float(i) + (isEarly ? 0.25 : 0.75));
       continue;
     }
-    if (detailAt(at, on) < 0.4 * detailBand.x) {
+    float counts = 1.0 + kFaithfulDetail * walks[gl_LocalInvocationIndex].fidelity;
+    if (counts * detailAt(at, on) < 0.4 * detailBand.x) {
       // A finer layer's stroke does not enter regions of coarser layers.
       endArm(number, max(float(i) + 0.5, minSteps));
       continue;

@@ -1,11 +1,11 @@
 // Purpose: contour lines: edges of the image, smoothed along their direction, and the silhouettes,
 //          creases and part borders of models; and the outlines of movers, but not where what is
 //          beside them, or the remembered background, is seen inside: labels reach beyond what
-//          moves, and may end within it. In fine places (fine_places.glsl), lines are of finer
-//          shades.
+//          moves, and may end within it. Where fidelity is higher (fidelity.glsl), contours
+//          are of finer shades, and movers have no outlines where it is full.
 // Defines: MODELS: with the lines of models.
-// Inputs:  edges (contour_edges.frag, LINEAR); contour_field.glsl's, mover_labels.glsl's and
-//          fine_places.glsl's; step_: px between taps; threshold: the least difference that is a line, in luma; sign_: -1 for
+// Inputs:  edges (contour_edges.frag, LINEAR); contour_field.glsl's and mover_labels.glsl's; step_:
+//          px between taps; threshold: the least difference that is a line, in luma; sign_: -1 for
 //          lines on the dark side of edges, 1 for the light one; picture: the image that tones are
 //          taken from (LINEAR); background (marks::MotionLayers); MODELS: ids, normalFocus (ArFrame).
 // Outputs: RG8: R ink, in [0, 1]; G the other side of edges, which stays bare where all around is
@@ -14,7 +14,6 @@
 #include "pipeline/gpu/images/shaders/luma.glsl"
 #include "pipeline/marks/shaders/colour_difference.glsl"
 #include "pipeline/marks/movers/shaders/mover_labels.glsl"
-#include "pipeline/marks/shaders/fine_places.glsl"
 #include "pipeline/styles/hatching/shaders/contour_field.glsl"
 #ifdef MODELS
 #include "pipeline/scene/render/shaders/object_id.glsl"
@@ -30,10 +29,10 @@ uniform highp sampler2D background;
 layout(location = 0) out vec2 contour;
 
 const float kStride = 1.8;  // steps between taps: specks of a texture are shorter than a line
-const float kFineStride = 0.3;  // of that, in fine places
+const float kFaithfulStride = 0.3;  // of that, where fidelity is 1
 // From no line to a whole one, in thresholds.
 const vec2 kRange = vec2(0.6, 1.4);
-const vec2 kFineRange = vec2(0.27, 1.44);
+const vec2 kFaithfulRange = vec2(0.27, 1.44);
 const float kSmooth[4] = float[4](0.24, 0.2, 0.12, 0.06);
 
 // To one of four sides, and its opposite.
@@ -138,8 +137,8 @@ float modelLines(ivec2 p) {
 #endif
 
 void main() {
-  float finely = finelyAt(gl_FragCoord.xy / pixelsOfFull);
-  float stride = kStride * mix(1.0, kFineStride, finely) * step_;
+  float fidelity = fidelityOf(gl_FragCoord.xy);
+  float stride = kStride * mix(1.0, kFaithfulStride, fidelity) * step_;
   vec2 gradient = gradientAt(gl_FragCoord.xy);
   float sum = kSmooth[0] * edgeAt(gl_FragCoord.xy);
   for (int side = -1; side <= 1; side += 2) {
@@ -150,9 +149,11 @@ void main() {
       sum += kSmooth[i] * edgeAt(at);
     }
   }
-  vec2 range = threshold * mix(kRange, kFineRange * shadeAt(gl_FragCoord.xy / pixelsOfFull), finely);
+  vec2 range = threshold * mix(kRange, kFaithfulRange * shadeAt(gl_FragCoord.xy / pixelsOfFull), fidelity);
   contour = smoothstep(vec2(range.x), vec2(range.y), vec2(sign_, -sign_) * sum);
-  contour.r = max(contour.r, moverLine(gl_FragCoord.xy / pixelsOfFull));
+  // Labels have gaps within faces, which are not outlined.
+  float outlined = 1.0 - smoothstep(0.8, 0.95, fidelity);
+  contour.r = max(contour.r, outlined * moverLine(gl_FragCoord.xy / pixelsOfFull));
 #ifdef MODELS
   ivec2 p = ivec2(gl_FragCoord.xy);
   contour.r = max(contour.r, modelLines(p));

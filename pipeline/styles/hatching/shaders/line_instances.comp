@@ -58,6 +58,7 @@ void main() {
   float rank = lines[slot].rank;
   uint label = lines[slot].label;
   bool isFront = label != 0u;
+  bool isModel = isFront && label != kMoverLabel;
   // Lines are clipped at the border between two movers.
   if (label == kMoverLabel) label = labelOfMover(moverOf(anchors[slot].state));
   float fade = anchors[slot].fade;
@@ -75,7 +76,7 @@ void main() {
     instances[place].points[i] = at;
     float fromEnd = min(part, 1.0 - part);
     float pressure = smoothstep(-0.02, max(taper, 1e-3), fromEnd);
-    float wide = fade * pressure * halfWidthOf(toneAt(at, isFront), rank);
+    float wide = fade * pressure * halfWidthOf(toneAt(at, isFront, isModel), rank);
     instances[place].widths[i] = wide;
     widest = max(widest, wide);
   }

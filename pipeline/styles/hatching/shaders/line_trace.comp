@@ -145,14 +145,15 @@ void main() {
                            (support == 0u && reachesMover(slot, px)));
   if (!isHeld) trace(slot, px, seed, isNew, support);
   bool isFront = support != 0u;
+  bool isModel = isFront && support != kMoverLabel;
   vec2 from = px + lines[slot].shift;
-  float most = toneAt(from, isFront);
+  float most = toneAt(from, isFront, isModel);
   for (int side = 0; side < arms.x; ++side) {
     float reach = min(lines[slot].lengths[side], float(kArm));
     vec2 at = from;
     for (int i = 0; float(i) < reach; ++i) {
       at += segment * wayOf(slot, side, i);
-      most = max(most, toneAt(at, isFront));
+      most = max(most, toneAt(at, isFront, isModel));
     }
   }
   lines[slot].seen = anchors[slot].fade * halfWidthOf(most, lines[slot].rank);

@@ -17,7 +17,7 @@ void main() {
   vec3 rgb = vec3(1.0 - lines.a) + lines.rgb;
   if (view == VIEW_TONE) {
     vec4 seen = textureLod(tone, px / fullSize, 0.0);
-    rgb = vec3(1.0 - toneAt(px, seen.w > seen.y));
+    rgb = vec3(1.0 - toneAt(px, seen.w > seen.y, false));
   }
   if (view == VIEW_EDGES) rgb = vec3(0.5 + 8.0 * texelFetch(edges, p, 0).r);
   if (view == VIEW_CONTOURS) rgb = vec3(1.0 - texelFetch(contours, p, 0).r);
