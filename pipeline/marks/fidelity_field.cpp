@@ -5,8 +5,6 @@
 
 #include <glm/common.hpp>
 
-#include "pipeline/tracking/faces/face_tracker.h"
-
 namespace pleinair::marks {
 namespace {
 

@@ -19,9 +19,9 @@ namespace pleinair::marks {
 namespace {
 
 const std::string kShaders = "pipeline/marks/anchors/shaders/";
-constexpr std::size_t kCellBytes = 64;  // shaders/anchor_cells.glsl
-constexpr int kMaxStrata = 4;           // along a cell's side (shaders/anchor_cells.glsl)
-constexpr float kFaithfulPart = 0.04F;  // of the image (DensityRule::faithfulFactor)
+constexpr std::size_t kCellBytes = 64;   // shaders/anchor_cells.glsl
+constexpr int kMaxStrata = 4;            // along a cell's side (shaders/anchor_cells.glsl)
+constexpr float kFaithfulPart = 0.025F;  // of the image (DensityRule::faithfulFactor)
 constexpr unsigned kFirstModel = scene::kMaxPlanes;  // in SurfaceAccess::bodies
 constexpr GLbitfield kStored = GL_SHADER_STORAGE_BARRIER_BIT;
 constexpr std::array<std::uint32_t, 4> kNoneOccupied{0, 1, 1, 0};  // shaders/occupied_slots.glsl

@@ -20,11 +20,15 @@ ReducedImages::Pyramid::Pyramid(hal::FrameSize size, gpu::TextureFormat format) 
   }
 }
 
-ReducedImages::Apart::Apart(hal::FrameSize size)
-    : background(size, gpu::TextureFormat::kRgba16f),
-      models(size, gpu::TextureFormat::kRgba16f),
-      movers(size, gpu::TextureFormat::kRgba16f),
-      first({&background.levels[0], &models.levels[0], &movers.levels[0]}) {}
+ReducedImages::Apart::Apart(hal::FrameSize size, bool mayHaveModels)
+    : background(size, gpu::TextureFormat::kRgba16f), movers(size, gpu::TextureFormat::kRgba16f) {
+  if (mayHaveModels) {
+    models.emplace(size, gpu::TextureFormat::kRgba16f);
+    first = gpu::RenderTarget({&background.levels[0], &movers.levels[0], &models->levels[0]});
+  } else {
+    first = gpu::RenderTarget({&background.levels[0], &movers.levels[0]});
+  }
+}
 
 ReducedImages::Surfaces::Surfaces(hal::FrameSize pictureSize)
     : size(pictureSize), whole(size, gpu::TextureFormat::kRgba8) {}
@@ -34,8 +38,11 @@ ReducedImages::ReducedImages(const gpu::ShaderLibrary& library)
       halveApart_(
           library.fragmentPass(kShaders + "halve.frag", {}, {gpu::TextureFormat::kRgba16f})),
       part_(library.fragmentPass(kShaders + "part.frag", {},
-                                 {gpu::TextureFormat::kRgba16f, gpu::TextureFormat::kRgba16f,
-                                  gpu::TextureFormat::kRgba16f})),
+                                 {gpu::TextureFormat::kRgba16f, gpu::TextureFormat::kRgba16f})),
+      partWithModels_(
+          library.fragmentPass(kShaders + "part.frag", {{"MODELS"}},
+                               {gpu::TextureFormat::kRgba16f, gpu::TextureFormat::kRgba16f,
+                                gpu::TextureFormat::kRgba16f})),
       noIds_(gpu::TextureFormat::kR32ui, {1, 1}) {}
 
 void ReducedImages::update(const scene::ArFrame& frame, const marks::MotionLayers* layers) {
@@ -53,16 +60,23 @@ void ReducedImages::update(const scene::ArFrame& frame, const marks::MotionLayer
       .drawFullscreen(surfaces.whole.targets[0]);
   halve(halve_, surfaces.whole);
   if (!isApart_) return;
-  if (!surfaces.apart) surfaces.apart.emplace(frame.size());
-  part_.use()
+  const bool mayHaveModels = frame.mayHaveObjects();
+  if (!surfaces.apart || (mayHaveModels && !surfaces.apart->models)) {
+    surfaces.apart.emplace(frame.size(), mayHaveModels);
+  }
+  const bool hasModels = surfaces.apart->models.has_value();
+  gpu::Program& part = hasModels ? partWithModels_ : part_;
+  part.use()
       .texture("picture", *frame.colour)
-      .texture("ids", frame.hasObjects ? *frame.ids : noIds_)
       .texture("movers", layerTextures_.labelsOf(layers))
-      .set("hasObjects", frame.hasObjects ? 1 : 0)
-      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
-      .drawFullscreen(surfaces.apart->first);
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()));
+  if (hasModels) {
+    part.texture("ids", frame.hasObjects ? *frame.ids : noIds_)
+        .set("hasObjects", frame.hasObjects ? 1 : 0);
+  }
+  part.drawFullscreen(surfaces.apart->first);
   halve(halveApart_, surfaces.apart->background);
-  if (frame.hasObjects) halve(halveApart_, surfaces.apart->models);
+  if (frame.hasObjects) halve(halveApart_, *surfaces.apart->models);
   if (hasMovers_) halve(halveApart_, surfaces.apart->movers);
 }
 
@@ -106,9 +120,9 @@ marks::StrokePaint ReducedImages::paintOf(double px) const {
   const Apart& apart = *now_->apart;
   const gpu::Texture* const background = &apart.background.levels[*level];
   return {.background = background,
-          .models = hasObjects_ ? &apart.models.levels[*level] : background,
+          .models = hasObjects_ ? &apart.models->levels[*level] : background,
           .movers = hasMovers_ ? &apart.movers.levels[*level] : background,
-          .fineModels = hasObjects_ ? apart.models.levels.data() : background,
+          .fineModels = hasObjects_ ? apart.models->levels.data() : background,
           .fineBackground = apart.background.levels.data(),
           .modelTexelPx = texelPx(*level + 1)};
 }

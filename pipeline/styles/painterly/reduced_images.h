@@ -49,10 +49,10 @@ class ReducedImages {
     std::array<gpu::RenderTarget, kHalvings> targets;
   };
   struct Apart {
-    explicit Apart(hal::FrameSize size);
+    Apart(hal::FrameSize size, bool mayHaveModels);
     Pyramid background;
-    Pyramid models;
     Pyramid movers;
+    std::optional<Pyramid> models;
     gpu::RenderTarget first;  // the first levels of all
   };
   struct Surfaces {
@@ -70,6 +70,7 @@ class ReducedImages {
   gpu::Program halve_;       // RGBA8 images
   gpu::Program halveApart_;  // RGBA16F images
   gpu::Program part_;
+  gpu::Program partWithModels_;
   gpu::PerSize<Surfaces> surfaces_;
   const Surfaces* now_ = nullptr;
   const gpu::Texture* picture_ = nullptr;

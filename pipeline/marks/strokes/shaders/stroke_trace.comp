@@ -153,17 +153,17 @@ float leastOther(uint slot) {
 }
 
 // Other content has come to rest in front of the stroke if it is new and of another colour.
-bool isReplacedAt(uint slot, vec2 px, vec3 colour) {
+bool isReplacedAt(vec2 px, vec3 colour) {
   const float kNewFrames = 3.5;  // fewer than what a moving camera remembers
   vec4 known = textureLod(background, inLayers(background, px), 0.0);
   bool isNew = known.a > 0.5 && known.a < kNewFrames && moverAt(px).r < 0.5;
-  return isNew && apart(colour, known.rgb) > max(leastOther(slot), 1.5 * colourThreshold);
+  return isNew && apart(colour, known.rgb) > max(otherColour.y, 1.5 * colourThreshold);
 }
 
 // Adds a place of a stroke to what is before it: x: the largest label of a mover; y: 1 if a mover
 // has joined the background there.
-vec2 before(vec2 known, uint slot, vec2 px, vec3 colour) {
-  return max(known, vec2(moverAt(px).r, isReplacedAt(slot, px, colour) ? 1.0 : 0.0));
+vec2 before(vec2 known, vec2 px, vec3 colour) {
+  return max(known, vec2(moverAt(px).r, isReplacedAt(px, colour) ? 1.0 : 0.0));
 }
 
 // What is before a stroke of the background, or beside it.
@@ -180,7 +180,7 @@ vec2 whatIsBefore(uint slot, vec2 px) {
       at = (step == 0 ? px : at) + segment * strokes[slot].ways[i];
       if (float(step) >= strokes[slot].lengths[i / kArm]) continue;
     }
-    found = before(found, slot, at, colour);
+    found = before(found, at, colour);
   }
   return found;
 }
@@ -239,8 +239,7 @@ bool isWanted(uint slot, vec2 px, float seen, bool isResting, bool isNew) {
   float hash = unitOf(hashOf(anchors[slot].seed ^ 0x51u));
   // A stroke is wanted where the detail lies in its band; an existing one stays a little longer.
   float focused = focusStrength * focusAt(px);
-  focused = kFocusDetail * focused + kFaithfulDetail * walks[gl_LocalInvocationIndex].fidelity;
-  float detail = (1.0 + focused) * seen + detailSpread * (hash - 0.5);
+  float detail = (1.0 + kFocusDetail * focused) * seen + detailSpread * (hash - 0.5);
   bool isAccent = !isModel && (strokes[slot].state & kAccent) != 0u;
   float leastDetail = detailBand.x * (isAccent ? kAccentDetail : 1.0);
   bool was = !isNew && (strokes[slot].state & kWanted) != 0u;
@@ -276,16 +275,28 @@ void markAccent(uint slot, vec2 px, vec2 heading, bool isNew) {
   strokes[slot].state = (strokes[slot].state & ~kAccent) | (narrow > least ? kAccent : 0u);
 }
 
-// What fidelity adds to a stroke's colour: it stresses what differs from its surroundings, as
-// portraits do. `own`: the colour there.
-vec3 stressOf(vec2 px, Support on, vec3 own, float fidelity) {
-  vec3 around = vec3(0.0);
-  int taps = !isModel && fidelity > 0.0 ? 4 : 0;
+// Finds a stroke's fidelity, which follows that of its place.
+void findFidelity(uint slot, vec2 px, bool isNew) {
+  float there = fidelityAt(px);
+  float fidelity = isNew ? there : mix(there, fidelityOf(strokes[slot].state), past.x);
+  walks[gl_LocalInvocationIndex].fidelity = fidelity;
+  walks[gl_LocalInvocationIndex].isChanging = abs(there - fidelity) > kSettled;
+}
+
+// What a stroke's fidelity adds to its colour: it stresses what differs from its surroundings, as
+// portraits do.
+vec3 stressOf(vec2 px, bool isOnMover) {
+  vec3 own = walks[gl_LocalInvocationIndex].colour;
+  vec3 unlike = vec3(0.0);  // sum of the differences from four places around
+  int taps = fidelityHere() > 0.0 ? 4 : 0;
   for (int i = 0; i < taps; ++i) {
     float side = (i & 1) == 0 ? -kFaithfulReach : kFaithfulReach;
-    around += 0.25 * colourAt(px + width * ((i & 2) == 0 ? vec2(side, 0.0) : vec2(0.0, side)), on);
+    vec2 at = (px + width * ((i & 2) == 0 ? vec2(side, 0.0) : vec2(0.0, side))) / fullSize;
+    // Premultiplied: where all is another layer's, there is no difference.
+    vec4 there = isOnMover ? textureLod(moverPaint, at, 0.0) : textureLod(paint, at, 0.0);
+    unlike += there.a * own - there.rgb;
   }
-  return taps > 0 ? kFaithfulContrast * fidelity * (own - around) : vec3(0.0);
+  return 0.25 * kFaithfulContrast * fidelityHere() * unlike;
 }
 
 // What is read again, of anchors and strokes, is not kept in registers through the walk.
@@ -313,19 +324,12 @@ void main() {
     label = isNew ? labelOfAnchor(px, anchors[slot].surface) : labelOfStroke(strokes[slot].state);
   }
 
+  if (!isModel) findFidelity(slot, px, isNew);
   uint seed = anchors[slot].seed;
   float stray = wander * (unitOf(hashOf(seed ^ 0x77u)) + unitOf(hashOf(seed ^ 0x78u)) - 1.0);
   vec2 hand = vec2(cos(stray), sin(stray));
   Support on = supportOf(label, isOnMover, px);
-  float fidelity = 0.0;
-  bool isChanging = false;
-  if (!isModel) {
-    float now = fidelityAt(px);
-    fidelity = isNew ? now : mix(now, fidelityOf(strokes[slot].state), past.x);
-    isChanging = abs(now - fidelity) > kSettled;
-  }
   vec3 own = colourAt(px, on);
-  vec3 stress = stressOf(px, on, own, fidelity);
   float seen = detailAt(px, on);
   vec2 heading = directionAt(px, on);
   heading = vec2(hand.x * heading.x - hand.y * heading.y, hand.y * heading.x + hand.x * heading.y);
@@ -335,7 +339,12 @@ void main() {
     vec2 was = jacobian.xy * strokes[slot].ways[0].x + jacobian.zw * strokes[slot].ways[0].y;
     if (dot(was, heading) < 0.0) heading = -heading;
   }
-  walks[gl_LocalInvocationIndex] = Walk(own, seen, heading, hand, stress, fidelity, isNew, isChanging);
+  int me = int(gl_LocalInvocationIndex);
+  walks[me].colour = own;
+  walks[me].detail = seen * (1.0 + kFaithfulDetail * fidelityHere());
+  walks[me].heading = heading;
+  walks[me].hand = hand;
+  walks[me].isNew = isNew;
   if (!isModel) markAccent(slot, px, heading, isNew);
   memoryBarrierShared();  // or compilers keep what they have just stored
   memoryBarrierBuffer();
@@ -352,12 +361,11 @@ void main() {
   Arm ahead = walked[gl_LocalInvocationIndex];
   Arm behind = walked[kWalkers + int(gl_LocalInvocationIndex)];
   if (!bothWays) behind = Arm(vec3(0.0), 0.0, 0.0, 0.0);
-  vec2 lengths = vec2(ahead.length, behind.length);
+  vec2 lengths = min(vec2(ahead.length, behind.length), stepsOfArm());
   float weight = ownWeight(layer.y - 1.0 - layer.x);
   vec3 colour = (weight * own + ahead.colour + behind.colour) /
                 (weight + ahead.weight + behind.weight);
-  fidelity = walks[gl_LocalInvocationIndex].fidelity;
-  colour = clamp(colour + walks[gl_LocalInvocationIndex].stress, 0.0, 1.0);
+  if (!isModel) colour = clamp(colour + stressOf(px, isOnMover), 0.0, 1.0);
 
   // Before a standing camera, nothing but its content changes a stroke of the background.
   bool isResting = isStanding && !isNew && !isOnMover && !isModel;
@@ -369,10 +377,10 @@ void main() {
   float most = isModel ? kModelHold : 1.0;
   float hold = mix(min(1.0 / flatHold, most), most, restless);
   // Its lengths change with its fidelity.
-  isChanging = walks[gl_LocalInvocationIndex].isChanging;
+  bool isChanging = !isModel && walks[gl_LocalInvocationIndex].isChanging;
   float stays = isOnMover || isChanging ? past.x : pow(past.x, hold);
   vec3 change = colour - strokes[slot].colour;
-  vec2 otherHere = otherColour * (1.0 + kFaithfulContrast * fidelity);
+  vec2 otherHere = otherColour * (1.0 + kFaithfulContrast * fidelityHere());
   float activity = 0.0;
   if (!isModel && isResting) {
     activity = activityAlong(px, heading);
@@ -381,7 +389,7 @@ void main() {
   float changed = isNew ? 0.0 : smoothstep(otherHere.x, otherHere.y, weightedLength(change));
   uint now = label | (wanted ? kWanted : 0u) | (isModel ? 0u : strokes[slot].state & kAccent);
   if (!isModel) {
-    now = withGirth(now, girthOfFidelity(fidelity));
+    now = withGirth(now, girthOfFidelity(fidelityHere()));
   } else if (!isNew) {
     now = withGirth(now, mix(1.0, girthOf(strokes[slot].state), past.x));
   }

@@ -107,7 +107,6 @@ struct Walk {
   float detail;
   vec2 heading;
   vec2 hand;
-  vec3 stress;  // that its fidelity adds to the colour
   float fidelity;
   bool isNew;
   bool isChanging;  // the fidelity
@@ -155,14 +154,15 @@ const float kBehind = 0.025;  // of the image's width: so far strokes go on behi
 // more detail counts.
 const float kFaithfulSteps = 0.32;
 const float kFaithfulThreshold = 0.45;
-const float kFaithfulDetail = 2.0;
-float stepsOfArm() { return steps * mix(1.0, kFaithfulSteps, walks[gl_LocalInvocationIndex].fidelity); }
+const float kFaithfulDetail = 1.5;
+float fidelityHere() { return isModel ? 0.0 : walks[gl_LocalInvocationIndex].fidelity; }
+float stepsOfArm() { return steps * mix(1.0, kFaithfulSteps, fidelityHere()); }
 float threshold() {
-  return colourThreshold * mix(1.0, kFaithfulThreshold, walks[gl_LocalInvocationIndex].fidelity);
+  return colourThreshold * mix(1.0, kFaithfulThreshold, fidelityHere());
 }
 
 // Ends an arm after so many steps.
-void endArm(int number, float length) { walked[number].length = min(stepsOfArm(), length); }
+void endArm(int number, float length) { walked[number].length = min(steps, length); }
 
 // Walks an arm, ahead or behind, and stores it. Behind its end, only its directions go on.
 void walk(int side, vec2 from, Support on) {
@@ -172,7 +172,7 @@ void walk(int side, vec2 from, Support on) {
   bool goesBehind = mayLeave && !isModel;
   float left = kBehind * fullSize.x;
   int number = side * kWalkers + int(gl_LocalInvocationIndex);
-  walked[number] = Arm(vec3(0.0), 0.0, stepsOfArm(), 0.0);
+  walked[number] = Arm(vec3(0.0), 0.0, steps, 0.0);
   bool goesOn = true;
   vec2 at = from;
   vec2 heading = walks[gl_LocalInvocationIndex].heading;
@@ -215,8 +215,7 @@ void walk(int side, vec2 from, Support on) {
       endArm(number, float(i) + (isEarly ? 0.25 : 0.75));
       continue;
     }
-    float counts = 1.0 + kFaithfulDetail * walks[gl_LocalInvocationIndex].fidelity;
-    if (counts * detailAt(at, on) < 0.4 * detailBand.x) {
+    if (detailAt(at, on) < 0.4 * detailBand.x) {
       // A finer layer's stroke does not enter regions of coarser layers.
       endArm(number, max(float(i) + 0.5, minSteps));
       continue;
@@ -224,16 +223,17 @@ void walk(int side, vec2 from, Support on) {
     vec3 own = walks[gl_LocalInvocationIndex].colour;
     vec3 there = colourAt(at, on);
     float difference = apart(there, own);
-    if (difference > threshold()) {
+    float most = threshold();
+    if (difference > most) {
       float before = walked[number].difference;
-      float part = clamp((threshold() - before) / max(difference - before, 1e-4), 0.0, 1.0);
+      float part = clamp((most - before) / max(difference - before, 1e-4), 0.0, 1.0);
       endArm(number, max(float(i) + part, minSteps));
       continue;
     }
     goesOn = true;
     walked[number].difference = difference;
-    if (float(i) >= stepsOfArm()) continue;
-    float weight = 1.0 - 0.7 * difference / threshold();
+    if (float(i) >= steps) continue;
+    float weight = 1.0 - 0.7 * difference / most;
     walked[number].colour += weight * there;
     walked[number].weight += weight;
   }

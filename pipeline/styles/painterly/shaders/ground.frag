@@ -22,7 +22,10 @@ uniform bool hasBorders;
 layout(location = 0) out vec4 colour;
 layout(location = 1) out vec4 height;
 
-const float kMostBare = 0.06;  // of the ground, under a mover
+// Of the ground under a mover, and of what is bare elsewhere: the lesser; but of pencils and ink, of
+// which bare paper is a part, more, or movers would be seen to be others.
+const float kMostBare = 0.06;
+const float kBareShare = 0.3;
 const float kInside = 3.0;     // px
 // A little below strokes' mean: what they leave bare would be pits with bright and dark rims.
 const float kWashHeight = 0.4;
@@ -43,7 +46,7 @@ void main() {
   if (moving > 0.0) {
     vec4 mover = texture(moverPaint, gl_FragCoord.xy / size);
     if (mover.a > 0.0) seen = mix(seen, mover.rgb / mover.a, moving);
-    bare = mix(bare, min(bare, kMostBare), moving);
+    bare = mix(bare, min(bare, max(kMostBare, kBareShare * bare)), moving);
   }
   if (isLimited) seen = mixtureOf(seen);
   colour = vec4(mix(seen, ground, bare), 1.0);
