@@ -36,7 +36,8 @@ struct DensityRule {
   float detailFactor = 1.0F;
   glm::vec2 detailRange{0.0F, 1.0F};
   /// Marks are smaller where fidelity is higher (AnchorHold::fidelity): there, the numbers are
-  /// multiplied by up to this, by less where it would be for more than 2.5 % of the image. At most 15.
+  /// multiplied by up to this, by less where it would be for more than 2.5 % of the image. At most
+  /// 15.
   float faithfulFactor = 1.0F;
 };
 

@@ -207,8 +207,9 @@ void main() {
   float share = objects.share;
   bool isGap = isAmongFull(at);
   // The strokes of those under models reach beyond them.
-  bool isFine = fidelityAt((vec2(at) + 0.5) * float(cellPixels)) > kFaithful;
-  uint inImage = wanted(whole * (1.0 - share), factors.x, cell.inImage + cell.underModels, isGap && !isFine, isFine);
+  bool isTight = fidelityAt((vec2(at) + 0.5) * float(cellPixels)) > kFaithful;
+  uint inImage = wanted(whole * (1.0 - share), factors.x, cell.inImage + cell.underModels,
+                        isGap && !isTight, isTight);
   uint onObjects = wanted(whole * share, 1.0, cell.onObjects, isGap, false);
   // A stroke paints its own patch only.
   uint onPatches = min(objects.unpainted, 255u);

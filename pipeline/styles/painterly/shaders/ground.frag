@@ -22,8 +22,8 @@ uniform bool hasBorders;
 layout(location = 0) out vec4 colour;
 layout(location = 1) out vec4 height;
 
-// Of the ground under a mover, and of what is bare elsewhere: the lesser; but of pencils and ink, of
-// which bare paper is a part, more, or movers would be seen to be others.
+// Of the ground, under a mover, and more where bare paper is a part of the look, as of pencils: a part
+// of what is bare elsewhere. Without it, movers look painted in another way.
 const float kMostBare = 0.06;
 const float kBareShare = 0.3;
 const float kInside = 3.0;     // px
